@@ -1,0 +1,26 @@
+# Every target is one task of make.py, which needs only Python: on Windows, type `python -m make demo` instead.
+PYTHON ?= python3
+
+.DEFAULT_GOAL := help
+.PHONY: demo test bench check docs clean help
+
+demo: ## identify the example test, print the result, write the report
+	@$(PYTHON) make.py demo
+
+test: ## set up everything that the tests need and run all of them
+	@$(PYTHON) make.py test
+
+bench: ## time the solver on many readings (minutes)
+	@$(PYTHON) make.py bench
+
+check: ## lint, format, types and import layers
+	@$(PYTHON) make.py check
+
+docs: ## build the documentation into docs/_build/html
+	@$(PYTHON) make.py docs
+
+clean: ## remove caches and built files; keep .venv and your results
+	@$(PYTHON) make.py clean
+
+help: ## show what each target does
+	@$(PYTHON) make.py help

@@ -1,0 +1,53 @@
+"""Which of several parameters that cannot be told apart is retained, unless the user prefers another.
+
+On-axis compliances of the moving axes come first; then, as in the thesis (4.5), translations for a force, rotations for a
+force, translations for a moment, rotations for a moment; joints that move before joints that stand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from elastogeo.machine import AXIS_ORDER, Machine
+from elastogeo.observe import Observations
+from elastogeo.sources import Source
+
+_LAST = 99
+
+
+def retaining_order(
+    sources: Sequence[Source], machine: Machine, observations: Iterable[Observations], prefer: Sequence[str] = ()
+) -> tuple[str, ...]:
+    """Names of the sources, the one to retain first coming first.
+
+    Parameters
+    ----------
+    sources : sequence of Source
+    machine : Machine
+    observations : iterable of Observations
+        They tell which axes move.
+    prefer : sequence of str
+        Names that come before all others, in this order.
+    """
+    moving = moving_axes(machine, observations)
+    ranked = sorted(range(len(sources)), key=lambda k: (*_rank(sources[k], machine, moving), k))
+    return tuple(dict.fromkeys([*prefer, *(sources[k].name for k in ranked)]))
+
+
+def moving_axes(machine: Machine, observations: Iterable[Observations]) -> frozenset[str]:
+    """The axes whose command changes within any of the runs."""
+    spans = [np.ptp(run.commands, axis=0) for run in observations]
+    return frozenset(axis for axis, span in zip(machine.axes, np.max(spans, axis=0), strict=True) if span > 0)
+
+
+def _rank(source: Source, machine: Machine, moving: frozenset[str]) -> tuple[int, ...]:
+    axis, displacement, load = source.site[1], source.component, source.load
+    if load is None:
+        return (_LAST,)
+    joint = machine.joints[machine.index(axis)]
+    on_axis = displacement == load == joint.direction + 3 * joint.is_rotary
+    moves = axis in moving
+    kind = (displacement >= 3) + 2 * (load >= 3)
+    return (not (on_axis and moves), not moves, kind, displacement, load, AXIS_ORDER.index(axis))

@@ -1,0 +1,192 @@
+"""One linear system per run, with a reference force level taken off if the question asks for it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from elastogeo.errors import InputError, UnsupportedError
+from elastogeo.estimate import Factor, Noise, factor_blocks, merge
+from elastogeo.machine import Array, Machine
+from elastogeo.observe import Observations
+from elastogeo.sources import Source, design_rows
+
+SAME_POSE = 1e-6
+"""Commands [mm, rad] that differ by less are the same pose."""
+
+SAME_FORCE = 0.5
+"""Forces [N] that differ by less are the same level."""
+
+
+@dataclass(frozen=True, slots=True)
+class RunSystem:
+    """The linear system of one run.
+
+    Attributes
+    ----------
+    observations : Observations
+        As observed; nothing is taken off.
+    force : float [N]
+        Force level, less the reference's if one is taken off (Eq. 4.27).
+    rows : array, shape (m, p + 1)
+        `[A | y]`, less the reference's if one is taken off (Eq. 4.26).
+    factor : Factor
+        Of the rows.
+    """
+
+    observations: Observations
+    force: float
+    rows: Array
+    factor: Factor
+
+    @property
+    def reading(self) -> Array:
+        """The readings that the model is to explain, shape (m,) [mm or rad]."""
+        return self.rows[:, -1]
+
+    @property
+    def design(self) -> Array:
+        """Change of each reading per unit of each parameter, shape (m, p)."""
+        return self.rows[:, :-1]
+
+
+@dataclass(frozen=True, slots=True)
+class Systems:
+    """The systems of a test.
+
+    Attributes
+    ----------
+    sources : tuple of Source
+        One per column.
+    runs : tuple of RunSystem
+        In the order of the test, without the reference runs if they are taken off.
+    references : int
+        How many reference runs were averaged and taken off from each run; 0 if none was.
+    applied : tuple of float [N]
+        The force levels that were applied, the reference among them, increasing.
+    """
+
+    sources: tuple[Source, ...]
+    runs: tuple[RunSystem, ...]
+    references: int
+    applied: tuple[float, ...]
+
+    @property
+    def levels(self) -> tuple[float, ...]:
+        """The force levels [N] of the runs, increasing."""
+        return force_levels(run.force for run in self.runs)
+
+    def at(self, *levels: float) -> tuple[RunSystem, ...]:
+        """The runs at these force levels [N].
+
+        Raises
+        ------
+        InputError
+            If there is none at one of them.
+        """
+        for level in levels:
+            if not any(same_force(run.force, level) for run in self.runs):
+                raise InputError(f"no run has the force {level:g} N; there are {', '.join(f'{x:g}' for x in self.levels)} N")
+        return tuple(run for run in self.runs if any(same_force(run.force, level) for level in levels))
+
+
+def same_force(one: float, other: float) -> bool:
+    """Whether two forces [N] are one level."""
+    return abs(one - other) <= SAME_FORCE
+
+
+def force_levels(forces: Iterable[float]) -> tuple[float, ...]:
+    """The distinct levels [N] among forces, increasing."""
+    levels: list[float] = []
+    for force in sorted(forces):
+        if not levels or not same_force(force, levels[-1]):
+            levels.append(force)
+    return tuple(levels)
+
+
+def run_systems(
+    sources: Sequence[Source], machine: Machine, observations: Sequence[Observations], reference: float | None = None
+) -> Systems:
+    """The linear system of every run.
+
+    Parameters
+    ----------
+    sources : sequence of Source, length p
+    machine : Machine
+    observations : sequence of Observations
+        One per run.
+    reference : float, optional [N]
+        Force level whose readings and model are taken off from all others, at the same poses (Eqs. 4.26, 4.27). What does
+        not change with the load then cancels, from the readings and from the model alike.
+
+    Raises
+    ------
+    UnsupportedError
+        If no run has the reference level, or no other.
+    InputError
+        If a run was not read at the poses of the reference.
+    """
+    labels = [source.name for source in sources]
+    rows = [design_rows(sources, machine, run) for run in observations]
+    forces = [run.force for run in observations]
+    applied = force_levels(forces)
+    is_reference = [reference is not None and same_force(force, reference) for force in forces]
+    references = sum(is_reference)
+    if reference is not None:
+        if not references or references == len(forces):
+            levels = ", ".join(f"{level:g}" for level in applied)
+            raise UnsupportedError(
+                f"the reference level {reference:g} N cannot be taken off: the runs are at {levels} N; "
+                f"it takes a run at the reference and one at another level"
+            )
+        base = observations[is_reference.index(True)]
+        for run in observations:
+            _check_same_poses(run, base)
+        taken = sum(r for r, is_ref in zip(rows, is_reference, strict=True) if is_ref) / references
+        rows = [r - taken for r in rows]
+        forces = [force - base.force for force in forces]
+    runs = tuple(
+        RunSystem(run, force, r, factor_blocks(labels, [r.copy(order="F")]))
+        for run, force, r, is_ref in zip(observations, forces, rows, is_reference, strict=True)
+        if not is_ref
+    )
+    return Systems(tuple(sources), runs, references, applied)
+
+
+def merged(runs: Sequence[RunSystem]) -> Factor:
+    """One factor of several runs."""
+    return merge(*(run.factor for run in runs))
+
+
+def noise_of(runs: Sequence[RunSystem], references: int) -> Noise | None:
+    """How the errors of the rows belong together: differences to one reference share its errors.
+
+    With N runs less the mean of n reference runs, the errors at each pose have the covariance `sigma^2 (I + 1 1^T / n)`.
+    """
+    if not references:
+        return None
+    own = merged(runs)
+    shared = sum(run.design for run in runs) / np.sqrt(references)
+    readings, count = len(runs[0].rows), len(runs)
+    return Noise(
+        root=np.vstack([own.R, np.linalg.qr(shared, mode="r")]),
+        trace=readings * count * (1 + 1 / references),
+        square=readings * ((count - 1) + (1 + count / references) ** 2),
+    )
+
+
+def _check_same_poses(run: Observations, reference: Observations) -> None:
+    if run.commands.shape != reference.commands.shape:
+        raise InputError(
+            f"run {run.run!r} has {len(run)} readings, the reference {reference.run!r} has {len(reference)}; "
+            f"to take a reference off, both must be read at the same poses"
+        )
+    apart = np.abs(run.commands - reference.commands).max(axis=1)
+    if apart.max() > SAME_POSE:
+        row = int(np.argmax(apart > SAME_POSE))
+        raise InputError(
+            f"run {run.run!r} and the reference {reference.run!r} are at different poses from reading {row + 1} on; "
+            f"to take a reference off, both must be read at the same poses, in the same order"
+        )

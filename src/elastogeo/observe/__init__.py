@@ -1,0 +1,29 @@
+"""Instruments and tests, made into a table of observations. Stands on `machine` and `errors`."""
+
+from elastogeo.observe.ball_bar import LoadedBallBar
+from elastogeo.observe.circle import PLANES, Circle, plane_directions
+from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
+from elastogeo.observe.imperfection import Imperfection
+from elastogeo.observe.instruments import instrument, instrument_named, instruments
+from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.trial import MachineTest, Question, Run, Setup
+
+__all__ = [
+    "PLANES",
+    "THESIS_CALIBRATION",
+    "Calibration",
+    "Circle",
+    "Imperfection",
+    "LoadedBallBar",
+    "MachineTest",
+    "Observations",
+    "Question",
+    "Run",
+    "Setup",
+    "check_observations",
+    "force_from_pressure",
+    "instrument",
+    "instrument_named",
+    "instruments",
+    "plane_directions",
+]

@@ -1,0 +1,116 @@
+"""The ball bar, loaded or not: it reads the change of the distance of two balls, and pushes them apart along it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from elastogeo.errors import InputError
+from elastogeo.machine import Array, Machine, Vector, follow, workpiece_ball
+from elastogeo.observe.circle import Circle
+from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
+from elastogeo.observe.instruments import instrument
+from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.trial import Run
+
+
+@instrument("loaded-ball-bar")
+@dataclass(frozen=True, slots=True)
+class LoadedBallBar:
+    """Set-up of a loaded ball bar.
+
+    Attributes
+    ----------
+    circle : Circle
+        Path and centre.
+    feed : float [mm/s]
+        Speed of the tool ball along the circle.
+    tool : tuple of 3 float or None [mm]
+        Tool ball in the frame of the last tool-branch carriage; None for the machine's own tool point.
+    calibration : Calibration
+        Force against pressure.
+    setup_deflection : float [mm/bar]
+        Deflection of the workpiece ball's post per pressure (2.33 um/bar in the thesis); zero switches the correction off.
+    """
+
+    circle: Circle
+    feed: float
+    tool: Vector | None = None
+    calibration: Calibration = THESIS_CALIBRATION
+    setup_deflection: float = 0.0
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Columns that a run file must have."""
+        return ("angle", "radial")
+
+    def observe(self, machine: Machine, run: Run) -> Observations:
+        """The observations that a run amounts to.
+
+        The sensitive direction is the bar's axis, from the workpiece ball to the tool ball (Eqs. 4.11, 4.17); the bar
+        pushes the tool along it with the run's force (4.22, no moment: the balls' friction counts as none).
+
+        Raises
+        ------
+        InputError
+            If the run lacks a column or a force, or has a value that is no finite number.
+        """
+        angle = self._angle(run)
+        tool = None if self.tool is None else np.array(self.tool)
+        rate = run.sense * self.feed / self.circle.radius
+        commands = follow(machine, self.circle.centre, self.circle.motion(angle, rate), tool)
+        force = self.force(run)
+        direction = np.zeros((len(angle), 6), order="F")
+        np.divide(commands.displacement, self.circle.radius, out=direction[:, :3])
+        observations = Observations(
+            run=run.name,
+            force=force,
+            commands=commands.position,
+            velocity=commands.velocity,
+            direction=direction,
+            wrench=force * direction,
+            reading=run.columns["radial"] - self.deflection(run, direction),
+            tool=np.array(machine.tool) if tool is None else tool,
+            workpiece=workpiece_ball(machine, self.circle.centre, tool),
+            length=self.circle.radius,
+        )
+        return check_observations(observations)
+
+    def force(self, run: Run) -> float:
+        """Force [N] with which the bar pushed in a run.
+
+        Raises
+        ------
+        InputError
+            If the run has neither a force nor a pressure.
+        """
+        if run.force is not None:
+            return run.force
+        if run.pressure is None:
+            raise InputError(f"run {run.name!r} has neither a force nor a pressure; give force_N or pressure_bar")
+        return force_from_pressure(run.pressure, self.calibration)
+
+    def deflection(self, run: Run, direction: Array) -> Array | float:
+        """Deflection [mm] of the workpiece ball's post in a run, which the reading holds and the machine does not.
+
+        Eq. 5.38: `delta = P 2.33 cos^2(elevation)`, with the elevation of the bar over the horizontal plane.
+
+        Raises
+        ------
+        InputError
+            If the correction is on and the run has no pressure.
+        """
+        if not self.setup_deflection:
+            return 0.0
+        if run.pressure is None:
+            raise InputError(f"run {run.name!r} has no pressure, which the set-up deflection correction (Eq. 5.38) needs")
+        return np.asarray(self.setup_deflection * run.pressure * (1.0 - direction[:, 2] ** 2))
+
+    def _angle(self, run: Run) -> Array:
+        missing = [name for name in self.quantities if name not in run.columns]
+        if missing:
+            raise InputError(
+                f"run {run.name!r} lacks the column {', '.join(missing)}; a loaded ball bar needs angle_deg, radial_um"
+            )
+        return np.asarray(run.columns["angle"])

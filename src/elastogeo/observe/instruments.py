@@ -1,0 +1,56 @@
+"""The register of instruments. A new one is a file of this room that defines a set-up and registers it:
+
+    @instrument("dial-gauge")
+    @dataclass(frozen=True)
+    class DialGauge:
+        centre: Mapping[str, float] = ...
+        quantities = ("deflection",)
+        def observe(self, machine, run): ...
+
+Nothing else changes: test files may name it, and the contract suite tests it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import TypeVar
+
+from elastogeo.errors import InputError
+from elastogeo.observe.trial import Setup
+
+_REGISTER: dict[str, type[Setup]] = {}
+S = TypeVar("S", bound=type)
+
+
+def instrument(name: str) -> Callable[[S], S]:
+    """Register a set-up class under the name that test files use."""
+
+    def register(setup: S) -> S:
+        _REGISTER[name] = setup
+        return setup
+
+    return register
+
+
+def instruments() -> dict[str, type[Setup]]:
+    """All instruments by name; every file of this room is looked at."""
+    package = __name__.rpartition(".")[0]
+    for module in iter_modules(import_module(package).__path__):
+        import_module(f"{package}.{module.name}")
+    return dict(sorted(_REGISTER.items()))
+
+
+def instrument_named(name: str) -> type[Setup]:
+    """The set-up class of an instrument.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name.
+    """
+    known = instruments()
+    if name not in known:
+        raise InputError(f"there is no instrument {name!r}; there are: {', '.join(known)}")
+    return known[name]

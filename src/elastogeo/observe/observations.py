@@ -1,0 +1,97 @@
+"""The table of observations: what every instrument is made into.
+
+A reading is the projection of the tool-to-workpiece displacement on the instrument's sensitive direction. So an observation
+is a pose, a sensitive direction, the wrench that acted, the velocity, the reading. Everything above this room sees nothing
+else of an instrument.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import isfinite
+
+import numpy as np
+
+from elastogeo.errors import InputError
+from elastogeo.machine import Array
+
+
+@dataclass(frozen=True, slots=True)
+class Observations:
+    """Readings of one run, in the units of the house (mm, N, rad, s, N mm), in the foundation frame.
+
+    Attributes
+    ----------
+    run : str
+        Name of the run.
+    force : float [N]
+        Force level of the run.
+    commands : array, shape (m, n) [mm, rad]
+        Axis commands, in the order of the machine's axes.
+    velocity : array, shape (m, n) [mm/s, rad/s]
+        Their time derivatives.
+    direction : array, shape (m, 6)
+        Sensitive direction: a unit twist (translation, rotation).
+    wrench : array, shape (m, 6) [N, N mm]
+        Wrench on the tool at the functional point; its reaction acts on the workpiece.
+    reading : array, shape (m,) [mm or rad]
+    tool : array, shape (3,) [mm]
+        Functional point in the frame of the last tool-branch carriage.
+    workpiece : array, shape (3,) [mm]
+        The point measured against, in the frame of the last workpiece-branch carriage.
+    length : float [mm]
+        Nominal distance of the two points if the instrument reads its change; infinite if it reads the displacement along
+        a fixed direction.
+    """
+
+    run: str
+    force: float
+    commands: Array
+    velocity: Array
+    direction: Array
+    wrench: Array
+    reading: Array
+    tool: Array
+    workpiece: Array
+    length: float = float("inf")
+
+    def __len__(self) -> int:
+        """How many readings."""
+        return len(self.reading)
+
+    def with_reading(self, reading: Array) -> Observations:
+        """The same observations with other readings, shape (m,)."""
+        return replace(self, reading=reading)
+
+    def rows(self, first: int, last: int) -> Observations:
+        """A block of the readings."""
+        part = slice(first, last)
+        return replace(
+            self,
+            commands=self.commands[part],
+            velocity=self.velocity[part],
+            direction=self.direction[part],
+            wrench=self.wrench[part],
+            reading=self.reading[part],
+        )
+
+
+def check_observations(observations: Observations) -> Observations:
+    """The same observations, if every number is finite and there is a reading at all.
+
+    Raises
+    ------
+    InputError
+        With the run, the quantity and the first reading that will not do.
+    """
+    name = observations.run
+    if not len(observations):
+        raise InputError(f"run {name!r} has no reading")
+    if not isfinite(observations.force):
+        raise InputError(f"run {name!r}: the force is {observations.force}, it must be a finite number of newtons")
+    for quantity in ("commands", "velocity", "direction", "wrench", "reading"):
+        values = np.atleast_2d(getattr(observations, quantity).T)
+        if not np.isfinite(values).all():
+            row = int(np.flatnonzero(~np.isfinite(values).all(axis=0))[0])
+            raise InputError(f"run {name!r}: the {quantity} of reading {row + 1} is no finite number")
+    return observations

@@ -1,0 +1,112 @@
+"""A test: the machine, the instrument's set-up, the runs, and what is asked of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from elastogeo.errors import InputError
+from elastogeo.machine import Array, Machine
+from elastogeo.observe.observations import Observations
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """One run: what was recorded, and what was the same for every reading.
+
+    Attributes
+    ----------
+    name : str
+    columns : mapping of str to array, shape (m,)
+        What the instrument recorded, by quantity, in the units of the house: `angle` [rad], `radial` [mm].
+    force : float or None [N]
+        Force level, if it was given as such.
+    pressure : float or None [bar]
+        Pressure level, if the force follows from it.
+    sense : int
+        +1 counter-clockwise, -1 clockwise.
+    repeat : int
+        Counts the runs of one level, from 1.
+    """
+
+    name: str
+    columns: Mapping[str, Array]
+    force: float | None = None
+    pressure: float | None = None
+    sense: int = 1
+    repeat: int = 1
+
+
+class Setup(Protocol):
+    """How an instrument was set up: the contract of an instrument.
+
+    An instrument is one file of this room: a frozen dataclass of its settings (in the units of the house) with the two
+    members below, registered by `instrument`. The fields are what a test file may set, under their names with a unit.
+    """
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Columns that a run file must have: what sets the pose, then the reading."""
+
+    def observe(self, machine: Machine, run: Run) -> Observations:
+        """The observations that a run amounts to."""
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What is asked of a test.
+
+    Attributes
+    ----------
+    parameters : tuple of str
+        Names, patterns or presets of the parameters to identify.
+    reference : float or None [N]
+        Force level that is subtracted from all others (Eqs. 4.26, 4.27), if any.
+    prefer : tuple of str
+        Parameters to retain before others that cannot be told from them.
+    """
+
+    parameters: tuple[str, ...] = ("planar-xy",)
+    reference: float | None = None
+    prefer: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class MachineTest:
+    """A test as a whole.
+
+    Attributes
+    ----------
+    name : str
+    machine : Machine
+    setup : Setup
+        Of the instrument.
+    runs : tuple of Run
+    question : Question
+    resolution : float or None [mm]
+        Of the readings.
+    simulated : str
+        From what the readings are simulated, in words; empty if they were measured.
+    """
+
+    name: str
+    machine: Machine
+    setup: Setup
+    runs: tuple[Run, ...]
+    question: Question = field(default_factory=Question)
+    resolution: float | None = None
+    simulated: str = ""
+
+    def __post_init__(self) -> None:
+        """Refuse a test without runs, or with two runs of one name."""
+        names = [run.name for run in self.runs]
+        twice = sorted({name for name in names if names.count(name) > 1})
+        if twice:
+            raise InputError(f"test {self.name!r} names the run {twice[0]!r} twice; every run needs a name of its own")
+        if not names:
+            raise InputError(f"test {self.name!r} has no run")
+
+    def observations(self) -> tuple[Observations, ...]:
+        """The observations of every run, in order."""
+        return tuple(self.setup.observe(self.machine, run) for run in self.runs)

@@ -1,0 +1,26 @@
+"""The error sources: names, units, drivers, catalogue, presets; the readings they cause. Stands on `observe`, `machine`."""
+
+from elastogeo.sources.catalogue import PRESETS, catalogue, select_sources
+from elastogeo.sources.families import families, family
+from elastogeo.sources.response import design_rows, exact_response, linear_response, site_twists
+from elastogeo.sources.simulate import parameter_values, simulate
+from elastogeo.sources.situation import Situation
+from elastogeo.sources.source import Driver, Source, twist_unit
+
+__all__ = [
+    "PRESETS",
+    "Driver",
+    "Situation",
+    "Source",
+    "catalogue",
+    "design_rows",
+    "exact_response",
+    "families",
+    "family",
+    "linear_response",
+    "parameter_values",
+    "select_sources",
+    "simulate",
+    "site_twists",
+    "twist_unit",
+]

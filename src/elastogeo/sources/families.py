@@ -1,0 +1,37 @@
+"""The register of families of error sources. A new one is a file of this room with a function that registers itself:
+
+    @family
+    def thermal_growth(machine):
+        for joint in machine.joints:
+            yield Source(f"E_T{joint.name}", "mm/K", ("motion", joint.name), 0, temperature, "thermal growth")
+
+Nothing else changes: the catalogue lists it, patterns select it, the contract suite tests it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from elastogeo.machine import Machine
+    from elastogeo.sources.source import Source
+
+Family = Callable[["Machine"], Iterator["Source"]]
+_REGISTER: dict[str, Family] = {}
+
+
+def family(sources: Family) -> Family:
+    """Register a function that yields the sources of a machine."""
+    _REGISTER[sources.__name__] = sources
+    return sources
+
+
+def families() -> dict[str, Family]:
+    """All families by name; every file of this room is looked at."""
+    package = __name__.rpartition(".")[0]
+    for module in iter_modules(import_module(package).__path__):
+        import_module(f"{package}.{module.name}")
+    return dict(_REGISTER)

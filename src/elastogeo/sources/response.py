@@ -1,0 +1,68 @@
+"""The readings that given parameter values cause: to first order, and exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+
+from elastogeo.machine import Array, Machine, Site, loop_frames
+from elastogeo.observe import Observations
+from elastogeo.sources.situation import Situation
+from elastogeo.sources.source import Source
+
+
+def design_rows(sources: Sequence[Source], machine: Machine, observations: Observations) -> Array:
+    """Rows `[A | y]` of the linear model.
+
+    Parameters
+    ----------
+    sources : sequence of Source, length p
+    machine : Machine
+    observations : Observations
+        m readings.
+
+    Returns
+    -------
+    array, shape (m, p + 1), Fortran order
+        Change of each reading per unit of each parameter (Eq. 4.13 in closed form), then the readings.
+    """
+    situation = Situation(machine, observations)
+    rows = np.empty((len(observations), len(sources) + 1), order="F")
+    for k, source in enumerate(sources):
+        rows[:, k] = source.column(situation)
+    rows[:, -1] = observations.reading
+    return rows
+
+
+def linear_response(values: Mapping[Source, float], machine: Machine, observations: Observations) -> Array:
+    """Readings, shape (m,) [mm or rad], that parameter values cause to first order (Eqs. 4.13, 5.15)."""
+    situation = Situation(machine, observations)
+    return sum((value * source.column(situation) for source, value in values.items()), np.zeros(len(observations)))
+
+
+def exact_response(values: Mapping[Source, float], machine: Machine, observations: Observations) -> Array:
+    """Readings, shape (m,) [mm or rad], that parameter values cause, by exact products of transforms with finite rotations.
+
+    The loads are those of the nominal pose; the deflections and errors they cause may have any size. It is the simulator,
+    and the judge of `linear_response`.
+    """
+    situation = Situation(machine, observations)
+    twists = site_twists(values.items(), situation)
+    frames = loop_frames(machine, observations.commands, observations.tool, twists)
+    none = np.zeros((1, 6))
+    tool = frames.point + frames.tool.vector(twists.get(("tool", ""), none)[:, :3])
+    ball = frames.workpiece.point(observations.workpiece + twists.get(("workpiece", ""), none)[:, :3])
+    if np.isfinite(observations.length):
+        return np.asarray(np.linalg.norm(tool - ball, axis=1) - observations.length)
+    nominal = situation.frames.point - situation.frames.workpiece.point(observations.workpiece)
+    return np.asarray(np.einsum("mi,mi->m", observations.direction[:, :3], tool - ball - nominal))
+
+
+def site_twists(values: Iterable[tuple[Source, float]], situation: Situation) -> dict[Site, Array]:
+    """Twist, shape (m, 6) [mm, rad], that parameter values cause at each site."""
+    twists: dict[Site, Array] = {}
+    for source, value in values:
+        twist = twists.setdefault(source.site, np.zeros((len(situation.observations), 6)))
+        twist[:, source.component] += value * source.driver(situation)
+    return twists

@@ -1,0 +1,30 @@
+"""Set-up errors: where the tool ball and the workpiece ball really sit (E_Xt0, E_Yt0 of Table 5.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from elastogeo.machine import COMPONENTS, Machine, Site
+from elastogeo.sources.families import family
+from elastogeo.sources.location import constant
+from elastogeo.sources.source import Source
+
+_POINTS: tuple[tuple[str, Site, str], ...] = (
+    ("t", ("tool", ""), "tool"),
+    ("w", ("workpiece", ""), "workpiece ball"),
+)
+
+
+@family
+def setup_offsets(_: Machine) -> Iterator[Source]:
+    """Offsets of tool and workpiece ball in their own carriage's frames."""
+    for letter, site, name in _POINTS:
+        for d in range(3):
+            yield Source(
+                name=f"E_{COMPONENTS[d]}{letter}0",
+                unit="mm",
+                site=site,
+                component=d,
+                driver=constant,
+                meaning=f"offset of the {name} in {COMPONENTS[d].lower()}",
+            )

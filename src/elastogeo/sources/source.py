@@ -1,0 +1,67 @@
+"""One idea: every fault is a small twist component at a site of the structural loop, times whatever drives it.
+
+    reading_i = sum_k [b_i^T J_i](site_k, component_k) * phi_k(i) * p_k
+
+A `Source` names the site, the component and the driver phi; its parameter p is what is identified.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from elastogeo.machine import Array, Site
+from elastogeo.sources.situation import Situation
+
+
+class Driver(Protocol):
+    """What drives a source: phi, for every reading."""
+
+    def __call__(self, situation: Situation, /) -> Array | float:
+        """Values of phi, shape (m,), or one number if it is the same for all."""
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """One error source.
+
+    Attributes
+    ----------
+    name : str
+        Of the parameter, after ISO 230-1 or the thesis: `C_XXX`, `E_YX2`, `E_C(0Y)X`.
+    unit : str
+        Of the parameter.
+    site : Site
+        Where its twist acts.
+    component : int
+        Which component of the twist: 0 to 5 for X Y Z A B C.
+    driver : Driver
+    meaning : str
+        In words.
+    load : int or None
+        Which load component of its joint drives it, 0 to 5 for forces and moments about X Y Z; None if no load does.
+    """
+
+    name: str
+    unit: str
+    site: Site
+    component: int
+    driver: Driver
+    meaning: str
+    load: int | None = None
+
+    @property
+    def elastic(self) -> bool:
+        """Whether a load drives it."""
+        return self.load is not None
+
+    def column(self, situation: Situation) -> Array:
+        """Change of every reading per unit of the parameter, shape (m,): first order, in closed form."""
+        return np.asarray(situation.sensitivity(self.site)[:, self.component] * self.driver(situation))
+
+
+def twist_unit(component: int) -> str:
+    """Unit of a twist component: mm for a translation, rad for a rotation."""
+    return "rad" if component >= 3 else "mm"
