@@ -13,6 +13,7 @@ from elastogeo.identify.identification import (
     identify,
     local_estimates,
     systems_of,
+    with_question,
 )
 from elastogeo.identify.preference import moving_axes, retaining_order
 from elastogeo.identify.systems import RunSystem, Systems, merged, noise_of, run_systems
@@ -43,4 +44,5 @@ __all__ = [
     "run_systems",
     "strongest_harmonic",
     "systems_of",
+    "with_question",
 ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -21,7 +21,7 @@ from elastogeo.identify.verdict import (
     residuals_unstructured,
 )
 from elastogeo.machine import Array
-from elastogeo.observe import MachineTest
+from elastogeo.observe import MachineTest, Question
 from elastogeo.sources import select_sources
 
 
@@ -134,7 +134,7 @@ class Identification:
     ----------
     test : MachineTest
         As it was given.
-    reference : float or None [N]
+    reference_force : float or None [N]
         Force level that was taken off.
     parameters : tuple of Parameter
         The retained set.
@@ -156,7 +156,7 @@ class Identification:
     """
 
     test: MachineTest
-    reference: float | None
+    reference_force: float | None
     parameters: tuple[Parameter, ...]
     confounding: Confounding
     solution: Solution
@@ -196,7 +196,7 @@ def identify(test: MachineTest) -> Identification:
     overall = rmse(np.concatenate([t.predicted for t in traces]), np.concatenate([t.measured for t in traces]))
     return Identification(
         test=test,
-        reference=test.question.reference,
+        reference_force=test.question.reference_force,
         parameters=parameters,
         confounding=found,
         solution=solution,
@@ -217,11 +217,24 @@ def identify(test: MachineTest) -> Identification:
     )
 
 
+def with_question(
+    test: MachineTest, parameters: Sequence[str] | None = None, prefer: Sequence[str] | None = None
+) -> MachineTest:
+    """The test with another question: other parameters, other preferences, or its own where none are given."""
+    question = test.question
+    asked = Question(
+        parameters=tuple(parameters) if parameters else question.parameters,
+        reference_force=question.reference_force,
+        prefer=tuple(prefer) if prefer else question.prefer,
+    )
+    return replace(test, question=asked)
+
+
 def systems_of(test: MachineTest) -> Systems:
     """The linear systems that a test and its question amount to."""
     question = test.question
     sources = select_sources(test.machine, question.parameters)
-    return run_systems(sources, test.machine, test.observations(), question.reference)
+    return run_systems(sources, test.machine, test.observations(), question.reference_force)
 
 
 def confounding_of(test: MachineTest, systems: Systems) -> Confounding:

@@ -18,6 +18,10 @@ from elastogeo.machine.machine import Joint, Machine
 
 Array = NDArray[np.float64]
 
+UPRIGHT: Array = np.eye(3)[np.newaxis]
+"""The rotation of every frame that stands as the foundation does: this very array is passed on along the loop, so that
+such a frame is known without looking at numbers, and costs no rotation."""
+
 
 @dataclass(frozen=True, slots=True)
 class Frame:
@@ -40,15 +44,12 @@ class Frame:
 
     def vector(self, local: Array) -> Array:
         """Foundation components, shape (m, 3), of a vector given in this frame, shape (3,) or (m, 3)."""
-        return np.asarray(np.einsum("mij,mj->mi", self.rotation, np.atleast_2d(local)))
+        local = np.atleast_2d(local)
+        return local if self.rotation is UPRIGHT else _turned(self.rotation, local)
 
     def components(self, vector: Array) -> Array:
         """Components along this frame's axes, shape (m, 3), of a vector given in the foundation, shape (m, 3)."""
-        if len(self.rotation) > 1:
-            return np.asarray(np.einsum("mji,mj->mi", self.rotation, vector))
-        if np.array_equal(self.rotation[0], np.eye(3)):
-            return vector
-        return np.asarray((self.rotation[0].T @ vector.T).T)
+        return vector if self.rotation is UPRIGHT else _turned(self.rotation.transpose(0, 2, 1), vector)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +97,7 @@ class LoopFrames:
 Site = tuple[str, str]
 """Where a small twist acts: ("location", axis), ("motion", axis), ("tool", "") or ("workpiece", "")."""
 
-GROUND = Frame(np.eye(3)[np.newaxis], np.zeros((1, 3)))
+GROUND = Frame(UPRIGHT, np.zeros((1, 3)))
 
 
 def check_commands(machine: Machine, commands: Array) -> Array:
@@ -169,8 +170,15 @@ def rotation_matrix(vector: Array) -> Array:
     return np.asarray(Rotation.from_rotvec(vector).as_matrix())
 
 
+def _turned(rotation: Array, vectors: Array) -> Array:
+    """Rotation times vector at each pose, shape (m, 3); either may hold for all poses."""
+    if len(rotation) == 1:
+        return np.asarray((rotation[0] @ vectors.T).T)
+    return np.asarray(np.einsum("mij,mj->mi", rotation, vectors))
+
+
 def _located(link: Frame, joint: Joint) -> Frame:
-    origin = link.point(np.asarray(joint.offset))
+    origin = link.point(np.asarray(joint.offset)) if any(joint.offset) else link.origin
     if not any(joint.tilt):
         return Frame(link.rotation, origin)
     return Frame(link.rotation @ rotation_matrix(np.asarray([joint.tilt])), origin)

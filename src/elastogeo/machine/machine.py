@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 from math import inf, isfinite
 
 from elastogeo.errors import MachineError
+from elastogeo.machine.quantity import Point, RotationVector, Travel
 from elastogeo.machine.topology import AXIS_ORDER, LINEAR, ROTARY, SPINDLE, Topology
 
-Vector = tuple[float, float, float]
-_ZERO: Vector = (0.0, 0.0, 0.0)
+_ZERO = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,9 +32,9 @@ class Joint:
     """
 
     name: str
-    offset: Vector = _ZERO
-    tilt: Vector = _ZERO
-    travel: tuple[float, float] = (-inf, inf)
+    offset: Point = _ZERO
+    tilt: RotationVector = _ZERO
+    travel: Travel = (-inf, inf)
     compliant: bool = True
 
     @property
@@ -69,7 +69,7 @@ class Machine:
     name: str
     topology: Topology
     joints: tuple[Joint, ...] = field(default=())
-    tool: Vector = _ZERO
+    tool: Point = _ZERO
     assumed: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

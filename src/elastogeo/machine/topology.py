@@ -17,7 +17,7 @@ SPINDLE = "S"
 AXIS_ORDER = "XYZUVWABCS"
 """The order in which axes are listed, whatever the topology."""
 
-_FOUNDATION = "Ffb"
+_FOUNDATION = ("F", "f", "b")
 _EXPECTED = "expected for example 'wCAFYXZSt' or \"[w C' A' b Y X Z (C1) t]\""
 
 

@@ -3,7 +3,7 @@
 from elastogeo.observe.ball_bar import LoadedBallBar
 from elastogeo.observe.circle import PLANES, Circle, plane_directions
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
-from elastogeo.observe.imperfection import Imperfection
+from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
 from elastogeo.observe.observations import Observations, check_observations
 from elastogeo.observe.trial import MachineTest, Question, Run, Setup
@@ -18,6 +18,7 @@ __all__ = [
     "MachineTest",
     "Observations",
     "Question",
+    "Residue",
     "Run",
     "Setup",
     "check_observations",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, Machine, Vector, follow, workpiece_ball
+from elastogeo.machine import Array, Feed, LengthPerPressure, Machine, OptionalPoint, follow, workpiece_ball
 from elastogeo.observe.circle import Circle
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
 from elastogeo.observe.instruments import instrument
@@ -35,10 +35,10 @@ class LoadedBallBar:
     """
 
     circle: Circle
-    feed: float
-    tool: Vector | None = None
+    feed: Feed
+    tool: OptionalPoint = None
     calibration: Calibration = THESIS_CALIBRATION
-    setup_deflection: float = 0.0
+    setup_deflection: LengthPerPressure = 0.0
 
     @property
     def quantities(self) -> tuple[str, ...]:

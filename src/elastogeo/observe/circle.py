@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, Motion
+from elastogeo.machine import Angle, Array, AxisCommands, Length, Motion
 
 Direction = tuple[float, float, float]
 
@@ -41,12 +41,12 @@ class Circle:
         How far each moving rotary axis turns per angle of the reading.
     """
 
-    radius: float
+    radius: Length
     plane: str | tuple[Direction, Direction] = "XY"
-    centre: Mapping[str, float] = field(default_factory=dict)
+    centre: AxisCommands = field(default_factory=dict)
     in_workpiece: bool = False
     bar_turn: float = 1.0
-    bar_start: float = 0.0
+    bar_start: Angle = 0.0
     rotary_turn: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

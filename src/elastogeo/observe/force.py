@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from elastogeo.errors import InputError
+from elastogeo.machine import Forces, Pressures
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,8 +24,8 @@ class Calibration:
     force : tuple of float [N]
     """
 
-    pressure: tuple[float, ...]
-    force: tuple[float, ...]
+    pressure: Pressures
+    force: Forces
 
     def __post_init__(self) -> None:
         """Refuse a table that is no calibration."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, Machine
+from elastogeo.machine import Array, Machine, OptionalForce, OptionalPressure
 from elastogeo.observe.observations import Observations
 
 
@@ -32,8 +32,8 @@ class Run:
 
     name: str
     columns: Mapping[str, Array]
-    force: float | None = None
-    pressure: float | None = None
+    force: OptionalForce = None
+    pressure: OptionalPressure = None
     sense: int = 1
     repeat: int = 1
 
@@ -61,14 +61,14 @@ class Question:
     ----------
     parameters : tuple of str
         Names, patterns or presets of the parameters to identify.
-    reference : float or None [N]
+    reference_force : float or None [N]
         Force level that is subtracted from all others (Eqs. 4.26, 4.27), if any.
     prefer : tuple of str
         Parameters to retain before others that cannot be told from them.
     """
 
     parameters: tuple[str, ...] = ("planar-xy",)
-    reference: float | None = None
+    reference_force: OptionalForce = None
     prefer: tuple[str, ...] = ()
 
 

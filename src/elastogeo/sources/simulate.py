@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from elastogeo.machine import Machine
-from elastogeo.observe import Imperfection, MachineTest, Observations, Run
+from elastogeo.observe import Imperfection, MachineTest, Run
 from elastogeo.sources.catalogue import select_sources
 from elastogeo.sources.response import exact_response, linear_response
 from elastogeo.sources.source import Source
@@ -69,8 +69,9 @@ def _simulated(
     pose, quantity = test.setup.quantities
     at = run.columns[pose]
     blank = replace(run, columns={pose: at, quantity: np.zeros(len(at))})
-    observations: Observations = test.setup.observe(test.machine, blank)
-    response = (exact_response if exact else linear_response)(truth, test.machine, observations)
+    observations = test.setup.observe(test.machine, blank)
+    pushed = replace(observations, wrench=observations.wrench * imperfection.force_factor(random))
+    response = (exact_response if exact else linear_response)(truth, test.machine, pushed)
     # What the instrument's set-up corrections will take off is what the raw reading has on top.
     raw = response - observations.reading
-    return replace(run, columns={pose: at, quantity: imperfection.added_to(raw, at, random)})
+    return replace(run, columns={pose: at, quantity: imperfection.added_to(raw, at, observations.force, random)})

@@ -1,0 +1,7 @@
+"""`python -m elastogeo` is the command `elastogeo`."""
+
+import sys
+
+from elastogeo.cli import main
+
+sys.exit(main())

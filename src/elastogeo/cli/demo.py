@@ -1,0 +1,26 @@
+"""`elastogeo demo`: the example test, identified, with its report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from elastogeo.cli.options import AsJson
+
+
+def demo(
+    report: Annotated[Path, typer.Option(help="Folder to write the report and its figures to.")] = Path("demo-report"),
+    as_json: AsJson = False,
+) -> None:
+    """Identify the example: a simulated loaded ball bar test of a five-axis machine at seven forces.
+
+    \b
+    Example:
+      elastogeo demo --report demo-report
+    """
+    from elastogeo.cli.identify import identify
+    from elastogeo.formats import example_test
+
+    identify(example_test(), report=report, as_json=as_json)

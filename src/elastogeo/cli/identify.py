@@ -1,0 +1,42 @@
+"""`elastogeo identify`: from a test to its parameters, with a verdict and a report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from elastogeo.cli.options import AsJson, Parameters, Prefer, TestPath
+
+
+def identify(
+    test: TestPath,
+    parameters: Parameters = None,
+    prefer: Prefer = None,
+    report: Annotated[Path | None, typer.Option(help="Folder to write the report and its figures to.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Identify the parameters that a test asks for.
+
+    \b
+    Example:
+      elastogeo identify my-test --report my-report
+    """
+    from elastogeo.cli import screen
+    from elastogeo.formats import read_test
+    from elastogeo.identify import identify as identified
+    from elastogeo.identify import with_question
+    from elastogeo.report import identification_json
+
+    with screen.progress("reading the runs", quiet=as_json) as step:
+        asked = with_question(read_test(test), parameters, prefer)
+        step("identifying")
+        result = identified(asked)
+        written = screen.write_report(result, report, step) if report else None
+    if as_json:
+        screen.show_json(identification_json(result))
+    else:
+        screen.show_identification(result)
+        if written:
+            screen.say(f"Report: {written}")

@@ -1,0 +1,165 @@
+'''Run files: any file of readings -> a `Table`. The format is told from the content, never from the file's name.
+
+To add a format, write one file in this package whose name begins with `run_`. It is found and registered by itself, and
+the contract tests in `tests/formats/test_run_files.py` run on it at once. A complete one, `run_toy.py`::
+
+    """The toy format: the word TOY, then one force in newtons on each line."""
+
+    import numpy as np
+
+    from elastogeo.errors import FormatError
+    from elastogeo.formats.run_files import RunFormat, register
+    from elastogeo.formats.table import Table
+
+
+    def can_read(head: bytes) -> bool:
+        return head.startswith(b"TOY\\n")
+
+
+    def read(data: bytes, source: str) -> Table:
+        forces = []
+        for number, line in enumerate(data.splitlines()[1:], 2):
+            try:
+                forces.append(float(line))
+            except ValueError:
+                raise FormatError(f"{source}, line {number}: {line[:40]!r} is not a force; correct it") from None
+        return Table({"force": np.array(forces)}, {}, source)
+
+
+    register(RunFormat("toy", ".toy", can_read, read, sample=lambda: b"TOY\\n36.0\\n742.0\\n"))
+
+What the contract asks:
+
+* `can_read` sees the first `HEAD` bytes, says yes to its own files only, and never raises;
+* `read` turns any bytes into a `Table` in internal units, or raises a `FormatError` that says where in the file, what
+  arrived, why it will not do, and what to do. It counts all that is wrong and shows the first five;
+* it never drops, pads or rounds a reading; it takes less than a second and ten times the file's size for each megabyte;
+* `sample` gives a small valid file, on which the detectors of all other formats are tried, and all its prefixes read.
+'''
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+import elastogeo.formats
+from elastogeo.errors import FormatError
+from elastogeo.formats.table import Table
+
+HEAD = 65_536
+MAX_BYTES = 100_000_000
+
+Writer = Callable[[Mapping[str, NDArray[np.float64]], Mapping[str, str]], bytes]
+
+
+@dataclass(frozen=True, slots=True)
+class RunFormat:
+    """The contract of a format of run files; the module's docstring is the recipe.
+
+    Attributes
+    ----------
+    name : str
+        What people call it, for messages.
+    suffix : str
+        The usual end of its file names, with the dot; used to name new files, never to recognise one.
+    can_read : callable
+        `can_read(head)`: whether a file that begins with these bytes is of this format.
+    read : callable
+        `read(data, source)`: the whole file's bytes to a `Table`; `source` is for messages.
+    sample : callable
+        `sample()`: the bytes of a small valid file.
+    write : callable, optional
+        `write(columns, metadata)`: bytes of a file; columns are arrays, shape (m,), in the file's own units, keyed by
+        header (`radial_um`). Read back, they are the same bit for bit.
+    """
+
+    name: str
+    suffix: str
+    can_read: Callable[[bytes], bool]
+    read: Callable[[bytes, str], Table]
+    sample: Callable[[], bytes]
+    write: Writer | None = None
+
+
+_FORMATS: dict[str, RunFormat] = {}
+
+
+def register(run_format: RunFormat) -> None:
+    """Add a format to those that `read_run` knows.
+
+    Raises
+    ------
+    FormatError
+        If another format has the same name.
+    """
+    if run_format.name in _FORMATS:
+        raise FormatError(f"a run format named {run_format.name!r} is registered already; give yours another name")
+    _FORMATS[run_format.name] = run_format
+
+
+def run_formats() -> dict[str, RunFormat]:
+    """All known formats by name: those of every module of this package whose name begins with `run_`."""
+    for module in pkgutil.iter_modules(elastogeo.formats.__path__):
+        if module.name.startswith("run_"):
+            importlib.import_module(f"elastogeo.formats.{module.name}")
+    return dict(_FORMATS)
+
+
+def read_run(path: str | Path) -> Table:
+    """Read one run file of any known format, told from its content.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file, of at most `MAX_BYTES` bytes.
+
+    Returns
+    -------
+    Table
+        Its readings in internal units [mm, rad, N, N mm, s, mm/s; bar, A, V, degC].
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be opened, is too large, is of no known format or of more than one, or has bad content.
+    """
+    source = str(path)
+    try:
+        with open(path, "rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise FormatError(f"{source}: cannot be opened ({reason}); check the path and its permissions") from None
+    return read_run_bytes(data, source)
+
+
+def read_run_bytes(data: bytes, source: str) -> Table:
+    """Read the bytes of a run file, as `read_run` does (an upload, a member of an archive).
+
+    Raises
+    ------
+    FormatError
+        As `read_run`.
+    """
+    if len(data) > MAX_BYTES:
+        raise FormatError(f"{source}: is larger than {MAX_BYTES // 1_000_000} MB; split the run into several files")
+    if not data:
+        raise FormatError(f"{source}: the file is empty; copy or export it again")
+    formats = run_formats()
+    found = [f for f in formats.values() if f.can_read(data[:HEAD])]
+    if len(found) == 1:
+        return found[0].read(data, source)
+    known = ", ".join(f"{f.name} ({f.suffix})" for f in formats.values())
+    if found:
+        claims = " and ".join(f.name for f in found)
+        raise FormatError(f"{source}: could be {claims}, so it is not read; export it in one of the formats {known}")
+    raise FormatError(
+        f"{source}: begins with {data[:20]!r}, which no known format does; known are {known}. "
+        "A text file needs a line of headers with units, such as 'angle_deg,radial_um', above its numbers"
+    )

@@ -1,0 +1,135 @@
+"""Test files: a test as a TOML document, beside the run files that it names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from elastogeo.errors import FormatError, InputError
+from elastogeo.formats.documents import build, check_schema, read_document
+from elastogeo.formats.machine_files import find_machine
+from elastogeo.formats.run_files import read_run
+from elastogeo.machine import Array, OptionalForce, OptionalLength, OptionalPressure
+from elastogeo.observe import MachineTest, Question, Run, instrument_named
+
+SCHEMA = "elastogeo.test/1"
+FILE_NAME = "test.toml"
+EXAMPLE = "hermle-c50-ldbb"
+_SENSES = {"ccw": 1, "cw": -1}
+
+Columns = Callable[[Path], Mapping[str, Array]]
+
+
+@dataclass(frozen=True, slots=True)
+class RunDocument:
+    """One entry of the table `runs` of a test file."""
+
+    file: str
+    name: str = ""
+    force: OptionalForce = None
+    pressure: OptionalPressure = None
+    sense: str = "ccw"
+    repeat: int = 1
+
+    def __post_init__(self) -> None:
+        """Refuse a sense of rotation that is none."""
+        if self.sense not in _SENSES:
+            raise InputError(f"sense is {self.sense!r}; write ccw (counter-clockwise) or cw (clockwise)")
+
+
+@dataclass(frozen=True, slots=True)
+class TestDocument:
+    """What a test file says; its table `setup` is the instrument's."""
+
+    schema: str
+    name: str
+    machine: str
+    instrument: str
+    setup: Mapping[str, Any]
+    runs: tuple[RunDocument, ...] = ()
+    question: Question = field(default_factory=Question)
+    resolution: OptionalLength = None
+    simulated: str = ""
+
+
+def read_test(path: Path, columns: Columns | None = None) -> MachineTest:
+    """Read a test: a folder that holds a `test.toml`, or such a file.
+
+    Parameters
+    ----------
+    path : Path
+    columns : callable, optional
+        From the path of a run file to its columns in the units of the house; by default the file is read. A simulation
+        gives its poses here, for runs that no file holds yet.
+
+    Returns
+    -------
+    MachineTest
+
+    Raises
+    ------
+    FormatError
+        If the file, or a run file, is not what it must be.
+    InputError
+        If the machine or the test contradicts itself.
+    """
+    file, document = read_test_document(path)
+    return MachineTest(
+        name=document.name,
+        machine=find_machine(document.machine, file.parent),
+        setup=build(instrument_named(document.instrument), document.setup, f"{file}, setup"),
+        runs=tuple(_run(entry, file.parent, columns or _read) for entry in document.runs),
+        question=document.question,
+        resolution=document.resolution,
+        simulated=document.simulated,
+    )
+
+
+def read_test_document(path: Path) -> tuple[Path, TestDocument]:
+    """The test file of a folder, or the file itself, and what it says; no run file is opened.
+
+    Raises
+    ------
+    FormatError
+        If it is not what it must be, or names no run.
+    """
+    file = path / FILE_NAME if path.is_dir() else path
+    table = read_document(file)
+    check_schema(table, SCHEMA, str(file))
+    document = build(TestDocument, table, str(file))
+    if not document.runs:
+        raise FormatError(f'{file}: names no run; add for each run [[runs]] with file = "runs/112N.csv" and force_N = 112')
+    return file, document
+
+
+def example_test() -> Path:
+    """The folder of the example test that comes with elastogeo.
+
+    Raises
+    ------
+    FormatError
+        If this copy of elastogeo came without it.
+    """
+    package = Path(str(resources.files("elastogeo")))
+    for folder in (package / "examples" / EXAMPLE, package.parent.parent / "examples" / EXAMPLE):
+        if (folder / FILE_NAME).is_file():
+            return folder
+    raise FormatError(f"the example {EXAMPLE} did not come with this copy of elastogeo; install it again")
+
+
+def _run(document: RunDocument, folder: Path, columns: Columns) -> Run:
+    return Run(
+        name=document.name or Path(document.file).stem,
+        columns=columns(folder / document.file),
+        force=document.force,
+        pressure=document.pressure,
+        sense=_SENSES[document.sense],
+        repeat=document.repeat,
+    )
+
+
+def _read(path: Path) -> Mapping[str, Array]:
+    return read_run(path).columns

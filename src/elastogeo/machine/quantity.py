@@ -1,0 +1,32 @@
+"""Quantities with the unit they have inside: what the field of a setting means, for people and for the readers of files.
+
+To Python these are plain numbers; the unit rides along as an annotation, so that a file's `radius_um` or `radius_m` can be
+converted once, at the boundary, and refused when it is no length.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated
+
+MM_OR_RAD = "mm|rad"
+
+Length = Annotated[float, "mm"]
+Angle = Annotated[float, "rad"]
+Force = Annotated[float, "N"]
+Pressure = Annotated[float, "bar"]
+Feed = Annotated[float, "mm_s"]
+Point = Annotated[tuple[float, float, float], "mm"]
+RotationVector = Annotated[tuple[float, float, float], "rad"]
+Travel = Annotated[tuple[float, float], MM_OR_RAD]
+Forces = Annotated[tuple[float, ...], "N"]
+Pressures = Annotated[tuple[float, ...], "bar"]
+LengthPerPressure = Annotated[float, "mm_per_bar"]
+LengthPerForce = Annotated[float, "mm_per_N"]
+AxisCommands = Annotated[Mapping[str, float], MM_OR_RAD]
+"""Commands by axis letter: each in mm or rad, as the axis is linear or rotary."""
+
+OptionalLength = Annotated[float | None, "mm"]
+OptionalForce = Annotated[float | None, "N"]
+OptionalPressure = Annotated[float | None, "bar"]
+OptionalPoint = Annotated[tuple[float, float, float] | None, "mm"]
