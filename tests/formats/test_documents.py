@@ -26,7 +26,9 @@ def test_feed_compound_unit_and_axis_commands():
 
 
 def test_a_calibration_table_is_read_as_tuples():
-    assert build(Calibration, {"pressure_bar": [1, 6], "force_N": [112, 742]}, "f") == Calibration((1.0, 6.0), (112.0, 742.0))
+    assert build(Calibration, {"pressure_bar": [1, 6], "force_N": [112, 742]}, "f") == Calibration(
+        (1.0, 6.0), (112.0, 742.0)
+    )
 
 
 @pytest.mark.parametrize(

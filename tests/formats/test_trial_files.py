@@ -96,7 +96,9 @@ def test_a_missing_run_file_is_refused_with_its_path(folder):
 
 def test_the_example_is_reproduced_byte_for_byte(tmp_path):
     script = example_test() / "make_runs.py"
-    done = subprocess.run([sys.executable, str(script), str(tmp_path / "again")], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, str(script), str(tmp_path / "again")], capture_output=True, text=True, check=False
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "15 runs in" in done.stdout
     assert "0 differ" in done.stdout
@@ -104,7 +106,7 @@ def test_the_example_is_reproduced_byte_for_byte(tmp_path):
 
 def test_the_example_says_that_it_is_simulated_and_from_what():
     test = read_test(example_test())
-    assert "Simulated, not measured" in test.simulated
+    assert "Not measured: simulated from" in test.simulated
     assert "Tables 5.5 and 5.6" in test.simulated
     assert sorted({run.pressure for run in test.runs}) == [0.4, 1, 2, 3, 4, 5, 6]
     assert [len([r for r in test.runs if r.pressure == p]) for p in (3, 4)] == [5, 5]

@@ -14,7 +14,9 @@ def demo(
     report: Annotated[Path, typer.Option(help="Folder to write the report and its figures to.")] = Path("demo-report"),
     as_json: AsJson = False,
 ) -> None:
-    """Identify the example: a simulated loaded ball bar test of a five-axis machine at seven forces.
+    """Identify the example test and write its report.
+
+    It is a simulated loaded ball bar test of a five-axis machine at seven forces.
 
     \b
     Example:

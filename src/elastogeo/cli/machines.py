@@ -14,7 +14,7 @@ def machines(
     name: Annotated[str, typer.Argument(help="A shipped machine or a machine file, to see it in full.")] = "",
     as_json: AsJson = False,
 ) -> None:
-    """List the machines that ship with elastogeo, or show one.
+    """List the machines that are there, or show one.
 
     \b
     Example:

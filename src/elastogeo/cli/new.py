@@ -14,7 +14,9 @@ def new(
     force: Annotated[list[float] | None, typer.Option(help="Force level [N]; may be repeated.")] = None,
     repeats: Annotated[int, typer.Option(help="Runs at each level.", min=1)] = 1,
 ) -> None:
-    """Make a folder for a loaded ball bar test: a commented test.toml, and a simulation.toml to try it with.
+    """Make a folder for a test of your own.
+
+    It holds a commented test.toml for a loaded ball bar, and a simulation.toml to try it with.
 
     \b
     Example:

@@ -55,10 +55,12 @@ def show_identification(result: Identification) -> None:
     test = result.test
     say(f"{test.name}, on {test.machine.name} ({test.machine.topology.compact}), {len(test.runs)} runs")
     if test.simulated:
-        say(test.simulated)
+        say(f"Simulated data. {test.simulated}")
     say("")
     _console.print(_parameters(result))
+    say("")
     _console.print(_levels(result))
+    say("")
     _stands_for(result.confounding)
     say("")
     for check in result.verdict:

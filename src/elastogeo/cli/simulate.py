@@ -15,7 +15,9 @@ def simulate(
     simulation: Annotated[Path, typer.Argument(help="A simulation file: true values, seed, poses, imperfections.")],
     as_json: AsJson = False,
 ) -> None:
-    """Write the run files that a test names, simulated from known parameters. No existing file is touched.
+    """Write the run files that a test names, simulated.
+
+    The parameters are those of a simulation file. No existing file is touched.
 
     \b
     Example:

@@ -87,7 +87,8 @@ def confounding(
     preference : sequence of str, optional
         Labels in the order in which they are to be retained; those not named come last, in the factor's order.
     kinds : sequence of str, length p, optional
-        Columns of one kind (one unit) may be compared in length, to tell a null column from rounding error.
+        Columns of one kind (one unit) may be compared in length, to tell a null column from rounding error. Without
+        kinds no two may, and only a column of zeros is null.
     tolerance : float
         Relative tolerance on scaled columns.
 
@@ -103,7 +104,7 @@ def confounding(
         If a preferred label is unknown.
     """
     norms = factor.column_norms
-    alive = _alive(norms, kinds)
+    alive = _alive(norms, factor.labels if kinds is None else kinds)
     if not alive.any():
         raise RankError(f"none of the parameters {', '.join(factor.labels)} changes any reading of this test")
     scaled = factor.R[:, alive] / norms[alive]
@@ -132,11 +133,11 @@ def confounding(
     )
 
 
-def _alive(norms: Array, kinds: Sequence[str] | None) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+def _alive(norms: Array, kinds: Sequence[str]) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
     """Which columns are longer than rounding error."""
     longest = np.zeros_like(norms)
-    for kind in set(kinds or [""]):
-        same = np.array([k == kind for k in kinds]) if kinds else np.ones(len(norms), bool)
+    for kind in set(kinds):
+        same = np.array([k == kind for k in kinds])
         longest[same] = norms[same].max(initial=0.0)
     return np.asarray(norms > NULL_TOLERANCE * longest)
 

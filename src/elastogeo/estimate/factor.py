@@ -20,9 +20,11 @@ from elastogeo.errors import InputError, SelectionError
 
 Array = NDArray[np.float64]
 
-BLOCK_ROWS = 1024
-"""Rows pushed at once: large enough for the blocked QR, small enough for the cache."""
-_PANEL = 8
+BLOCK_ROWS = 4096
+"""Rows pushed at once: large enough for the cost of a call not to count, small enough for the cache."""
+
+NARROW = 32
+"""Columns below which narrower panels of the blocked QR are faster (and its products too small to spread over threads)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,6 +143,6 @@ def _merged(one: Factor, other: Factor) -> Factor:
 
 def _pushed(triangle: Array, rows: Array, trapezoid: int = 0) -> Array:
     """Triangle of the rows under a triangle (LAPACK dtpqrt); `trapezoid` says how many of the rows are triangular."""
-    panel = min(_PANEL, len(triangle))
+    panel = min(4 if len(triangle) < NARROW else 8, len(triangle))
     pushed, *_ = lapack.dtpqrt(trapezoid, panel, triangle, np.asfortranarray(rows), overwrite_a=0, overwrite_b=1)
     return np.asarray(pushed)

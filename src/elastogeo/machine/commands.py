@@ -56,11 +56,14 @@ class Commands:
         Their time derivatives.
     displacement : array, shape (m, 3) [mm]
         From the workpiece ball to the tool, in the foundation.
+    ball : array, shape (3,) [mm]
+        The workpiece ball in the workpiece frame.
     """
 
     position: Array
     velocity: Array
     displacement: Array
+    ball: Array
 
 
 def follow(machine: Machine, centre: Mapping[str, float], motion: Motion, tool: Array | None = None) -> Commands:
@@ -86,19 +89,22 @@ def follow(machine: Machine, centre: Mapping[str, float], motion: Motion, tool: 
     PathError
         If the linear axes cannot reach the path, or an axis would leave its travel.
     """
-    ball = workpiece_ball(machine, centre, tool)
+    frames = _at_centre(machine, centre, tool)
+    ball = _ball(frames)
     position = np.empty((len(motion.displacement), len(machine.axes)), order="F")
     position[:] = [centre.get(axis, 0.0) for axis in machine.axes]
     for axis, angle in motion.rotary.items():
         position[:, machine.index(axis)] = angle
     linear = [axis for axis in machine.axes if axis in "XYZ"]
 
-    frames = loop_frames(machine, position if motion.rotary else position[:1], tool)
+    if motion.rotary:
+        frames = loop_frames(machine, position, tool)
     target = frames.workpiece.vector(motion.displacement) if motion.in_workpiece else motion.displacement
-    inverse = np.asarray(np.linalg.pinv(_directions(frames, linear)), dtype=float)
+    directions = _directions(frames, linear)
+    inverse = np.asarray(np.linalg.pinv(directions), dtype=float)
     shift = target - (frames.point - frames.workpiece.point(ball))
     moves = _applied(inverse, shift)
-    _check_reached(machine, shift - _applied(_directions(frames, linear), moves), target)
+    _check_reached(machine, _applied(np.eye(3) - directions @ inverse, shift), target)
     for k, axis in enumerate(linear):
         position[:, machine.index(axis)] += moves[:, k]
     _check_travel(machine, position)
@@ -114,14 +120,21 @@ def follow(machine: Machine, centre: Mapping[str, float], motion: Motion, tool: 
     rates = _applied(inverse, rate)
     for k, axis in enumerate(linear):
         velocity[:, machine.index(axis)] = rates[:, k]
-    return Commands(position, velocity, target)
+    return Commands(position, velocity, target, ball)
 
 
 def workpiece_ball(machine: Machine, centre: Mapping[str, float], tool: Array | None = None) -> Array:
     """Where the workpiece ball sits in the workpiece frame, shape (3,) [mm]: where the tool is at the centre pose."""
+    return _ball(_at_centre(machine, centre, tool))
+
+
+def _at_centre(machine: Machine, centre: Mapping[str, float], tool: Array | None) -> LoopFrames:
     for axis in centre:
         machine.index(axis)
-    frames = loop_frames(machine, np.array([[centre.get(axis, 0.0) for axis in machine.axes]]), tool)
+    return loop_frames(machine, np.array([[centre.get(axis, 0.0) for axis in machine.axes]]), tool)
+
+
+def _ball(frames: LoopFrames) -> Array:
     return np.asarray(frames.workpiece.components(frames.point - frames.workpiece.origin)[0])
 
 

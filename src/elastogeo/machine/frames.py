@@ -144,14 +144,16 @@ def loop_frames(
     """
     twists = twists or {}
     commands = check_commands(machine, commands)
+    travels = dict(zip(machine.axes, commands.T, strict=True))
+    described = {joint.name: joint for joint in machine.joints}
     joints: dict[str, JointFrames] = {}
     ends: list[Frame] = []
     for side, branch in ((-1.0, reversed(machine.topology.workpiece)), (1.0, iter(machine.topology.tool))):
         frame = GROUND
         for axis in branch:
-            k = machine.index(axis)
-            location = _twisted(_located(frame, machine.joints[k]), twists.get(("location", axis)))
-            moved = _moved(location, machine.joints[k], side * steady(commands[:, k]))
+            joint = described[axis]
+            location = _twisted(_located(frame, joint), twists.get(("location", axis)))
+            moved = _moved(location, joint, side * steady(travels[axis]))
             frame = _twisted(moved, twists.get(("motion", axis)))
             joints[axis] = JointFrames(location, frame, side)
         ends.append(frame)
@@ -202,7 +204,4 @@ def _twisted(frame: Frame, twist: Array | None) -> Frame:
 
 def _along(location: Frame, direction: int, travel: Array) -> Array:
     axis = location.rotation[:, :, direction]
-    origin = np.empty((max(len(travel), len(axis), len(location.origin)), 3), order="F")
-    for i in range(3):
-        origin[:, i] = location.origin[:, i] + axis[:, i] * travel
-    return origin
+    return location.origin + np.multiply(axis.T, travel, order="C").T

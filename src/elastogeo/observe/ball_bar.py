@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, Feed, LengthPerPressure, Machine, OptionalPoint, follow, workpiece_ball
+from elastogeo.machine import Array, Feed, LengthPerPressure, Machine, OptionalPoint, follow
 from elastogeo.observe.circle import Circle
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
 from elastogeo.observe.instruments import instrument
@@ -72,7 +72,7 @@ class LoadedBallBar:
             wrench=force * direction,
             reading=run.columns["radial"] - self.deflection(run, direction),
             tool=np.array(machine.tool) if tool is None else tool,
-            workpiece=workpiece_ball(machine, self.circle.centre, tool),
+            workpiece=commands.ball,
             length=self.circle.radius,
         )
         return check_observations(observations)

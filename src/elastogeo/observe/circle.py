@@ -63,7 +63,7 @@ class Circle:
         speed = self.bar_turn * rate
         return Motion(
             displacement=_combined(cosine, first, sine, second),
-            rate=_combined(-speed * sine, first, speed * cosine, second),
+            rate=_combined(cosine, speed * second, sine, -speed * first),
             rotary={a: self.centre.get(a, 0.0) + turn * angle for a, turn in self.rotary_turn.items()},
             rotary_rate={axis: turn * rate for axis, turn in self.rotary_turn.items()},
             in_workpiece=self.in_workpiece,
@@ -93,7 +93,4 @@ def plane_directions(plane: str | tuple[Direction, Direction]) -> tuple[Array, A
 
 def _combined(a: Array, first: Array, b: Array, second: Array) -> Array:
     """`a first + b second`, shape (m, 3), Fortran order."""
-    combined = np.empty((len(a), 3), order="F")
-    for i in range(3):
-        combined[:, i] = a * first[i] + b * second[i]
-    return combined
+    return np.asarray((np.column_stack([first, second]) @ np.stack([a, b])).T)

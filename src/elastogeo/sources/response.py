@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from elastogeo.machine import Array, Machine, Site, loop_frames
-from elastogeo.observe import Observations
+from elastogeo.observe import Observations, Run, Setup
 from elastogeo.sources.situation import Situation
 from elastogeo.sources.source import Source
+
+BLOCK_READINGS = 16384
+"""Readings in a block: enough that what is done once a block does not count, few enough for the cache."""
 
 
 def design_rows(sources: Sequence[Source], machine: Machine, observations: Observations) -> Array:
@@ -33,6 +37,36 @@ def design_rows(sources: Sequence[Source], machine: Machine, observations: Obser
         rows[:, k] = source.column(situation)
     rows[:, -1] = observations.reading
     return rows
+
+
+def design_blocks(
+    sources: Sequence[Source], machine: Machine, setup: Setup, runs: Iterable[Run], readings: int = BLOCK_READINGS
+) -> Iterator[Array]:
+    """Rows `[A | y]` of runs of any length, block by block: the memory does not grow with the readings.
+
+    `factor_blocks` takes them as they come. The runs may come as they are recorded, and a long run in pieces of one name;
+    it is for instruments that observe every reading by itself.
+
+    Parameters
+    ----------
+    sources : sequence of Source, length p
+    machine : Machine
+    setup : Setup
+        Of the instrument.
+    runs : iterable of Run
+    readings : int
+        In a block, at most.
+
+    Yields
+    ------
+    array, shape (readings or fewer, p + 1), Fortran order
+        As `design_rows`; the taker may overwrite it.
+    """
+    for run in runs:
+        length = max(map(len, run.columns.values()), default=0)
+        for first in range(0, max(length, 1), readings):
+            part = {quantity: values[first : first + readings] for quantity, values in run.columns.items()}
+            yield design_rows(sources, machine, setup.observe(machine, replace(run, columns=part)))
 
 
 def linear_response(values: Mapping[Source, float], machine: Machine, observations: Observations) -> Array:

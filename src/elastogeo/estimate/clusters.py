@@ -1,0 +1,78 @@
+"""Covariance when readings of one run belong together: residuals along a trace are not independent, runs are.
+
+The sandwich by clusters, with the bias-reduced residuals and the effective degrees of freedom of Bell and McCaffrey (Survey
+Methodology 28, 2002; Pustejovsky and Tipton, doi:10.1080/07350015.2016.1247004). All of it follows from one small triangle
+per run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from elastogeo.errors import DegreesOfFreedomError
+from elastogeo.estimate.factor import Array, Factor, merge, select
+from elastogeo.estimate.solution import Solution, solve
+
+_SINGULAR = 1e-10
+"""Eigenvalues of `I - H` below this belong to combinations that one run alone determines."""
+
+
+def solve_by_run(runs: Sequence[Factor], labels: Sequence[str]) -> Solution:
+    """Least-squares solution whose covariance counts on independent runs, not on independent readings.
+
+    Parameters
+    ----------
+    runs : sequence of Factor
+        One per run.
+    labels : sequence of str, length p
+        Parameters to solve for.
+
+    Returns
+    -------
+    Solution
+        The values are those of `solve`; covariance and degrees of freedom are by run.
+
+    Raises
+    ------
+    RankError
+        If the parameters are dependent.
+    DegreesOfFreedomError
+        If there are too few runs for a parameter: some combination rests on one run alone.
+    """
+    chosen = [select(run, labels) for run in runs]
+    plain = solve(merge(*chosen))
+    norms = merge(*chosen).column_norms
+    whole = merge(*chosen).R / norms
+    roots = [solve_triangular(whole, (run.R / norms).T, trans="T").T for run in chosen]
+    lifted = [_lifted(root) for root in roots]
+    residuals = [run.z - run.R @ plain.values for run in chosen]
+    # a[g] is the bread times the adjusted design of run g: its share of the estimate is a[g] @ residual[g].
+    shares = [solve_triangular(whole, (lift @ root).T) for lift, root in zip(lifted, roots, strict=True)]
+    scores = np.array([share @ residual for share, residual in zip(shares, residuals, strict=True)])
+    degrees = np.array([_degrees_of_freedom(roots, [share[k] for share in shares]) for k in range(len(norms))])
+    if (degrees <= 1).any():
+        weak = ", ".join(label for label, degree in zip(labels, degrees, strict=True) if degree <= 1)
+        raise DegreesOfFreedomError(
+            f"{len(runs)} runs are too few for an uncertainty of {weak} by run: it rests on hardly more than one of them; "
+            f"repeat the runs"
+        )
+    covariance = scores.T @ scores / np.outer(norms, norms)
+    return Solution(plain.labels, plain.values, covariance, degrees, plain.residual_std)
+
+
+def _lifted(root: Array) -> Array:
+    """`(I - H)^(-1/2)` of one run in the space of its triangle; a combination that rests on it alone is left out."""
+    values, vectors = np.linalg.eigh(np.eye(len(root)) - root @ root.T)
+    free = values > _SINGULAR
+    inverse = np.where(free, 1.0 / np.sqrt(np.where(free, values, 1.0)), 0.0)
+    return np.asarray((vectors * inverse) @ vectors.T)
+
+
+def _degrees_of_freedom(roots: Sequence[Array], shares: Sequence[Array]) -> float:
+    """Satterthwaite's degrees of freedom of the variance of one parameter, for independent readings of equal variance."""
+    across = np.array([root.T @ share for root, share in zip(roots, shares, strict=True)])
+    gram = np.diag([float(share @ share) for share in shares]) - across @ across.T
+    return float(np.trace(gram) ** 2 / np.sum(gram**2))

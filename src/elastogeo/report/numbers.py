@@ -1,0 +1,102 @@
+"""How numbers are written for people. The only place where anything is rounded, and only on paper."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from decimal import Decimal
+from math import floor, isfinite, log10
+
+UNKNOWN = "not known"
+_PLAIN = (1e-3, 1e6)
+"""Magnitudes from the first to below the second are written without an exponent."""
+_SHARPEST = 1e-9
+"""A relative uncertainty below this says more of the arithmetic than of the machine; the value keeps ten digits."""
+
+_PREFIXES = {
+    "mm": ((1.0, "mm"), (1e3, "µm"), (1e6, "nm"), (1e9, "pm"), (1e12, "fm")),
+    "rad": ((1.0, "rad"), (1e3, "mrad"), (1e6, "µrad"), (1e9, "nrad"), (1e12, "prad")),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class DisplayUnit:
+    """A unit to show values in.
+
+    Attributes
+    ----------
+    name : str
+    factor : float
+        A value in the unit of the house times this is the value in this unit.
+    """
+
+    name: str
+    factor: float
+
+
+def display_unit(unit: str, magnitude: float) -> DisplayUnit:
+    """The unit in which a value of this magnitude reads well: nm/N for 6e-5 mm/N, µm/m for 1e-4 mm/mm.
+
+    Parameters
+    ----------
+    unit : str
+        Of the house: `mm/N`, `rad/(N mm)`, `mm/mm^2`, ...
+    magnitude : float
+        In `unit`; zero or unknown keeps the unit.
+    """
+    head, slash, rest = unit.partition("/")
+    factor = 1.0
+    if rest.startswith("mm"):
+        factor = 1000.0 ** int(rest.partition("^")[2] or 1)
+        rest = rest.removeprefix("m")
+    below = written_unit(slash + rest)
+    if head not in _PREFIXES or not isfinite(magnitude) or magnitude == 0:
+        return DisplayUnit(head + below, factor)
+    steps = _PREFIXES[head]
+    step, prefixed = next((s for s in steps if abs(magnitude) * factor * s[0] >= 1.0), steps[-1])
+    return DisplayUnit(prefixed + below, factor * step)
+
+
+def written_unit(unit: str) -> str:
+    """A unit as it is set in print: `rad/(N·mm)`, `mm/mm²`."""
+    return unit.replace("N mm", "N·mm").replace("^2", "²").replace("^3", "³")
+
+
+def significant(value: float, digits: int = 3) -> str:
+    """A number with so many significant digits, trailing zeros kept: `43.7`, `0.140`, `1.20e-07`."""
+    if not isfinite(value):
+        return UNKNOWN
+    if value == 0:
+        return "0"
+    text = f"{value:.{digits - 1}e}"
+    return f"{Decimal(text):f}" if _is_plain(abs(value)) else text
+
+
+def value_with_uncertainty(value: float, uncertainty: float) -> str:
+    """A value and its uncertainty to two significant digits, the value to the same place (JCGM 100, 7.2.6).
+
+    Examples
+    --------
+    >>> value_with_uncertainty(61.8983, 0.0314)
+    '61.898 ± 0.031'
+    >>> value_with_uncertainty(6.18983e-5, 3.14e-8)
+    '(6.1898 ± 0.0031)e-05'
+    """
+    value, uncertainty = float(value), float(uncertainty)
+    if not isfinite(value):
+        return UNKNOWN
+    if not isfinite(uncertainty) or uncertainty < 0:
+        return f"{significant(value, 4)} ± {UNKNOWN}"
+    if uncertainty <= _SHARPEST * abs(value):
+        return f"{significant(value, 10)} ± {f'{uncertainty:.1e}' if uncertainty else '0'}"
+    if not uncertainty:
+        return "0 ± 0"
+    largest = max(abs(value), uncertainty)
+    power = 0 if _is_plain(largest) else floor(log10(largest))
+    half = Decimal(f"{uncertainty:.1e}").scaleb(-power)
+    place = Decimal(1).scaleb(int(half.as_tuple().exponent))
+    number = f"{Decimal(repr(value)).scaleb(-power).quantize(place):f} ± {half:f}"
+    return f"({number})e{power:+03d}" if power else number
+
+
+def _is_plain(magnitude: float) -> bool:
+    return _PLAIN[0] <= magnitude < _PLAIN[1]

@@ -1,0 +1,113 @@
+"""The look of every figure: one palette that colour-blind readers can tell apart, one type, nothing that is not data."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from itertools import pairwise
+from math import floor, log10
+from threading import RLock
+from typing import Any
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap, to_hex
+from matplotlib.figure import Figure
+
+from elastogeo.machine import Array
+
+BLUE, ORANGE, GREEN, GREY, INK, FAINT = "#0072b2", "#d55e00", "#009e73", "#767676", "#222222", "#d9d9d9"
+"""After Okabe and Ito (2008)."""
+WIDTH = 7.0
+"""Width of every figure [in]: that of a page of A4 between its margins."""
+SMALL = 7.5
+"""Size of notes [pt]; labels have 8.5."""
+
+_RC: Any = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial", "sans-serif"],
+    "font.size": 8.5,
+    "text.color": INK,
+    "text.parse_math": False,
+    "axes.titlesize": 8.5,
+    "axes.labelsize": 8.5,
+    "axes.edgecolor": GREY,
+    "axes.labelcolor": INK,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.unicode_minus": True,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "xtick.labelsize": SMALL,
+    "ytick.labelsize": SMALL,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "legend.frameon": False,
+    "legend.fontsize": SMALL,
+    "lines.linewidth": 1.2,
+    "lines.solid_capstyle": "round",
+    "figure.facecolor": "white",
+    "savefig.facecolor": "white",
+    "svg.fonttype": "none",
+    "svg.hashsalt": "elastogeo",
+}
+_FORCES = LinearSegmentedColormap.from_list("forces", ["#a6dbe8", "#56a9d6", "#4878b8", "#6c5aa8", "#a0468f"])
+_POINTS, _FEWEST = 30000, 150
+_LOCK = RLock()  # matplotlib's settings are global, and a web application draws from several threads
+
+
+@contextmanager
+def house_style() -> Iterator[None]:
+    """Draw and save under the settings of the house."""
+    with _LOCK, rc_context(_RC):
+        yield
+
+
+def new_figure(height: float) -> Figure:
+    """An empty figure of the house's width and this height [in]."""
+    return Figure(figsize=(WIDTH, height), layout="constrained")
+
+
+def grid(count: int, columns: int, height: float, sharey: bool = False) -> tuple[Figure, list[Axes]]:
+    """A figure of small multiples, and its `count` axes; `height` [in] is that of a row."""
+    columns = min(columns, count)
+    rows = -(-count // columns)
+    figure = new_figure(rows * height)
+    axes = list(figure.subplots(rows, columns, sharey=sharey, squeeze=False).flat)
+    for spare in axes[count:]:
+        spare.remove()
+    return figure, axes[:count]
+
+
+def force_colours(forces: Sequence[float]) -> dict[float, str]:
+    """A colour for each force level, darker with the force, all light enough for a dark line on them."""
+    last = max(len(forces) - 1, 1)
+    return {force: to_hex(_FORCES(k / last if len(forces) > 1 else 0.5)) for k, force in enumerate(forces)}
+
+
+def nice_step(largest: float) -> float:
+    """The greatest of 1, 2, 5 times a power of ten that is not above `largest`."""
+    power = 10.0 ** floor(log10(largest))
+    return next(step * power for step in (5, 2, 1) if step * power <= largest * (1 + 1e-9))
+
+
+def thinned(pose: Array, values: Array, traces: int) -> tuple[Array, Array]:
+    """What is drawn of a trace: all of it, or the least and the greatest of each of many short pieces, in order.
+
+    Parameters
+    ----------
+    pose, values : array, shape (m,)
+    traces : int
+        How many traces the figure has; together they get a bounded number of points, so that its file stays small.
+    """
+    pieces = max(_FEWEST, _POINTS // (2 * traces))
+    if len(values) <= 2 * pieces:
+        return pose, values
+    edges = np.linspace(0, len(values), pieces + 1).astype(int)
+    kept = {0, len(values) - 1}
+    for first, last in pairwise(edges):
+        kept |= {first + int(np.argmin(values[first:last])), first + int(np.argmax(values[first:last]))}
+    chosen = np.array(sorted(kept))
+    return pose[chosen], values[chosen]

@@ -1,0 +1,80 @@
+"""The rows of the parameter table in words and figures: one place for the page and the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from elastogeo.identify import Identification
+from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
+
+UM = 1000.0
+_SAME = 1e-6
+"""Coefficients this close to one are written without a number."""
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterRow:
+    """One identified parameter, formatted.
+
+    Attributes
+    ----------
+    name, value, unit : str
+        The value is `value ± U`, where U is half the 95 % interval, in `unit`.
+    peak_to_peak_um, share_percent : str
+        Of its part of the trace at the highest force, with the sign of the value.
+    stands_for : str
+        The combination it represents: `C_XXX + C_XXY`.
+    meaning : str
+    """
+
+    name: str
+    value: str
+    unit: str
+    peak_to_peak_um: str
+    share_percent: str
+    stands_for: str
+    meaning: str
+
+
+def parameter_rows(result: Identification) -> tuple[ParameterRow, ...]:
+    """The rows of the parameter table, in the order of the result."""
+    shown = display_units(result)
+    return tuple(
+        ParameterRow(
+            name=p.name,
+            value=value_with_uncertainty(
+                p.value * shown[p.name].factor, (p.interval[1] - p.interval[0]) / 2 * shown[p.name].factor
+            ),
+            unit=shown[p.name].name,
+            peak_to_peak_um=in_micrometres(p.peak_to_peak),
+            share_percent=f"{100 * p.share:.1f}",
+            stands_for=combination(p.stands_for),
+            meaning=p.meaning,
+        )
+        for p in result.parameters
+    )
+
+
+def display_units(result: Identification) -> dict[str, DisplayUnit]:
+    """The unit in which each parameter is shown, by its name; parameters of one kind share theirs, to compare."""
+    largest: dict[str, float] = {}
+    for p in result.parameters:
+        largest[p.unit] = max(largest.get(p.unit, 0.0), abs(p.value))
+    return {p.name: display_unit(p.unit, largest[p.unit]) for p in result.parameters}
+
+
+def combination(terms: Mapping[str, float]) -> str:
+    """A labelled linear combination: `C_XXX + C_XXY - 0.5 C_YYX`."""
+    text = ""
+    for name, coefficient in terms.items():
+        sign = "-" if coefficient < 0 else "+"
+        size = abs(coefficient)
+        factor = "" if abs(size - 1) < _SAME else f"{significant(size, 4)} "
+        text += f" {sign} {factor}{name}" if text else f"{'-' if coefficient < 0 else ''}{factor}{name}"
+    return text
+
+
+def in_micrometres(length: float, digits: int = 3) -> str:
+    """A length [mm] as a number of micrometres."""
+    return significant(length * UM, digits)

@@ -1,0 +1,305 @@
+"""The contract of every instrument on every machine: simulate a random truth, measure, identify, equals truth.
+
+Parametrised over the register of instruments and the arrangements of `conftest.py`; columns are judged by finite
+differences of the exact products of transforms, over the whole register of error sources.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy import stats
+
+from elastogeo.errors import RankError
+from elastogeo.estimate import solve
+from elastogeo.identify import Identification, confounding_of, identify, merged, noise_of, systems_of
+from elastogeo.machine import Array
+from elastogeo.observe import Imperfection, MachineTest, Observations, instruments
+from elastogeo.sources import (
+    Source,
+    catalogue,
+    design_rows,
+    exact_response,
+    linear_response,
+    parameter_values,
+    select_sources,
+    simulate,
+)
+
+TYPICAL_SIZE = {"mm/N": 1e-5, "rad/N": 3e-8, "mm/(N mm)": 3e-8, "rad/(N mm)": 1e-10}
+"""Of a compliance, by unit: each then moves the readings by micrometres."""
+
+DRAWS = 600
+NOISE = 1e-4
+Case = Any
+
+
+def random_truth(test: MachineTest, seed: int = 0) -> dict[str, float]:
+    """Random values of all 36 n compliances."""
+    random = np.random.default_rng(seed)
+    sources = select_sources(test.machine, ["C_*"])
+    return {source.name: TYPICAL_SIZE[source.unit] * float(random.standard_normal()) for source in sources}
+
+
+def difference_quotient(source: Source, test: MachineTest, observed: Observations) -> Array:
+    """Derivative of the exact response by a source's parameter: central differences, extrapolated (Richardson)."""
+    twist_step = 0.1 if source.component < 3 else 3e-4
+    unit = linear_drive(source, test, observed)
+    step = twist_step / unit if unit else 1.0
+
+    def central(h: float) -> Array:
+        up, down = (exact_response({source: x}, test.machine, observed) for x in (h, -h))
+        return (up - down) / (2 * h)
+
+    return (4 * central(step / 2) - central(step)) / 3
+
+
+def linear_drive(source: Source, test: MachineTest, observed: Observations) -> float:
+    """Greatest absolute value of a source's driver."""
+    from elastogeo.sources import Situation
+
+    return float(np.max(np.abs(source.driver(Situation(test.machine, observed)))))
+
+
+def worst_by_unit(sources: list[Source], analytic: Array, numeric: Array) -> dict[str, float]:
+    """Greatest difference of two sets of columns, relative to the greatest column of the same unit."""
+    by_unit: dict[str, list[int]] = defaultdict(list)
+    for k, source in enumerate(sources):
+        by_unit[source.unit].append(k)
+    return {
+        unit: float(np.abs(analytic[:, k] - numeric[:, k]).max() / max(np.abs(analytic[:, k]).max(), 1e-9))
+        for unit, k in by_unit.items()
+    }
+
+
+def test_every_registered_instrument_is_held_to_the_contract(setups: Mapping[str, Callable[..., Any]]) -> None:
+    assert set(instruments()) == set(setups)
+
+
+def test_columns_are_the_derivatives_of_the_exact_response(case: Case) -> None:
+    """On all 36 n compliances, and on every other source of the catalogue: error motions, location errors, offsets."""
+    test = case.test(forces=(300.0,), readings=12)
+    (observed,) = test.observations()
+    sources = list(catalogue(test.machine).values())
+    assert sum(source.elastic for source in sources) == 36 * len(test.machine.compliant)
+    analytic = design_rows(sources, test.machine, observed)[:, :-1]
+    numeric = np.column_stack([difference_quotient(source, test, observed) for source in sources])
+    worst = worst_by_unit(sources, analytic, numeric)
+    print(case, max(worst.values()))
+    assert max(worst.values()) < 1e-6, worst
+
+
+def test_the_exact_response_tends_to_the_linear_one_with_the_square(case: Case) -> None:
+    test = case.test(forces=(300.0,), readings=12)
+    (observed,) = test.observations()
+    truth = random_truth(test)
+    errors = []
+    for factor in (1.0, 0.1):
+        values = parameter_values(test.machine, {name: factor * value for name, value in truth.items()})
+        exact, linear = (response(values, test.machine, observed) for response in (exact_response, linear_response))
+        errors.append(np.abs(exact - linear).max() / factor**2)
+        assert np.abs(exact - linear).max() < 1e-3 * np.abs(linear).max()
+    assert errors[1] == pytest.approx(errors[0], rel=0.05)
+
+
+@pytest.fixture(scope="module")
+def identified(case: Case) -> tuple[MachineTest, dict[str, float], Identification]:
+    test = case.test()
+    truth = random_truth(test)
+    simulated = simulate(test, truth, exact=False)
+    return simulated, truth, identify(simulated)
+
+
+def test_what_is_identified_is_the_truth(identified: tuple[MachineTest, dict[str, float], Identification]) -> None:
+    """Each retained parameter is exactly the combination of true values that it says it stands for."""
+    test, truth, result = identified
+    norms = merged(systems_of(test).runs).column_norms
+    scale = np.array([norms[result.confounding.labels.index(p.name)] for p in result.parameters])
+    values = np.array([p.value for p in result.parameters]) * scale
+    stated = np.array([sum(c * truth[name] for name, c in p.stands_for.items()) for p in result.parameters]) * scale
+    assert len(result.parameters) == result.confounding.rank
+    assert np.abs(values).max() > 1e-3
+    assert_allclose(values, stated, rtol=0, atol=1e-9 * np.abs(values).max())
+
+
+def test_prediction_equals_the_readings(identified: tuple[MachineTest, dict[str, float], Identification]) -> None:
+    test, _, result = identified
+    for run, trace in zip(test.runs, result.traces, strict=True):
+        readings = run.columns[test.setup.quantities[1]]
+        assert np.ptp(readings) > 1e-3
+        assert_allclose(trace.measured, readings, atol=1e-15)
+        assert_allclose(trace.predicted, readings, rtol=0, atol=1e-9 * np.ptp(readings))
+    everything = [result.minimum_norm[name] for name in result.confounding.labels]
+    for system, trace in zip(systems_of(test).runs, result.traces, strict=True):
+        assert_allclose(system.design @ everything, trace.measured, rtol=0, atol=1e-9 * np.ptp(trace.measured))
+    assert all(level.fitness == pytest.approx(100.0, abs=1e-6) for level in result.levels)
+
+
+def test_the_retained_columns_combine_to_all_others(
+    identified: tuple[MachineTest, dict[str, float], Identification],
+) -> None:
+    test, _, result = identified
+    A = np.vstack([run.design for run in systems_of(test).runs])
+    norms = np.linalg.norm(A, axis=0)
+    norms[norms == 0] = 1.0
+    found = result.confounding
+    retained = [found.labels.index(name) for name in found.retained]
+    assert_allclose((A[:, retained] @ found.combinations) / norms, A / norms, atol=2e-8)
+    # the rank is that of the singular values of the scaled columns, with a clear gap
+    alive = [k for k, name in enumerate(found.labels) if name not in found.null]
+    singular = np.linalg.svd(A[:, alive] / norms[alive], compute_uv=False)
+    assert singular[found.rank - 1] > 1e-8 * singular[0]
+    assert np.all(singular[found.rank :] < 1e-10 * singular[0])
+
+
+def test_a_purely_radial_force_cannot_tell_mirrored_terms(case: Case) -> None:
+    """No test of a ball bar shows C_df without C_fd; an instrument that pushes elsewhere than it reads may."""
+    test = case.test()
+    (observed, *_) = test.observations()
+    if not np.allclose(observed.wrench, observed.force * observed.direction):
+        return
+    sources = {source.name: source for source in select_sources(test.machine, ["C_*"])}
+    rows = design_rows(list(sources.values()), test.machine, observed)
+    column = dict(zip(sources, rows.T, strict=False))
+    scale = {unit: max(np.abs(column[s.name]).max() for s in sources.values() if s.unit == unit) for unit in TYPICAL_SIZE}
+    for name, source in sources.items():
+        twin = f"C_{name[3]}{name[2]}{name[4]}"
+        assert_allclose(column[name], column[twin], rtol=0, atol=1e-10 * scale[source.unit])
+
+
+def test_a_deficient_question_is_refused_and_named(
+    identified: tuple[MachineTest, dict[str, float], Identification],
+) -> None:
+    test, _, result = identified
+    found = result.confounding
+    assert found.rank < len(found.labels)
+    with pytest.raises(RankError, match="changes no reading of this test|are not independent in this test"):
+        solve(merged(systems_of(test).runs))
+    told = {check.name: check for check in result.verdict}["identifiable"]
+    assert not told.passed
+    assert f"determines {found.rank} combinations" in told.sentence
+    # nothing is lost in silence: every parameter is null, or part of what a retained one stands for
+    spoken = set(found.null).union(*(found.stands_for(name) for name in found.retained))
+    assert spoken == set(found.labels)
+
+
+def bounds(draws: int, comparisons: int) -> tuple[float, float]:
+    """Between which rates a true 95 % is seen, at 99.9 % over all comparisons together (Bonferroni)."""
+    tail = 0.001 / 2 / comparisons
+    return stats.binom.ppf(tail, draws, 0.95) / draws, stats.binom.ppf(1 - tail, draws, 0.95) / draws
+
+
+def coverage(test: MachineTest, truth: Mapping[str, float], draws: int = DRAWS) -> Array:
+    """How often each parameter's 95 % interval holds the truth, over many noisy simulations of the test."""
+    found = confounding_of(test, systems_of(test))
+    stated = np.array([sum(c * truth[name] for name, c in found.stands_for(r).items()) for r in found.retained])
+    inside = np.zeros(found.rank)
+    for seed in range(draws):
+        systems = systems_of(simulate(test, truth, Imperfection(noise=NOISE), seed=seed, exact=False))
+        solution = solve(merged(systems.runs), found.retained, noise_of(systems.runs, systems.references))
+        low, high = solution.interval().T
+        inside += (low <= stated) & (stated <= high)
+    return inside / draws
+
+
+@pytest.mark.parametrize(
+    ("forces", "reference", "repeats"),
+    [
+        ((112.0, 490.0), None, 1),
+        ((36.0, 112.0, 238.0, 364.0, 490.0), 36.0, 1),
+        ((36.0, 112.0, 490.0), 36.0, 3),
+    ],
+    ids=["no reference", "one reference run", "three reference runs"],
+)
+def test_intervals_cover_at_their_rate(
+    typical: Case, forces: tuple[float, ...], reference: float | None, repeats: int
+) -> None:
+    asked = ("C_XX*", "C_YY*", "C_ZZ*", "C_CC*")
+    test = case_test(typical, forces, reference, repeats, asked)
+    truth = {name: value for name, value in random_truth(test).items() if name in names_of(test)}
+    rates = coverage(test, truth)
+    low, high = bounds(DRAWS, len(rates))
+    print(typical, forces, reference, repeats, "coverage", rates.min(), rates.mean(), rates.max(), "bounds", low, high)
+    assert np.all(rates >= low), rates
+    assert np.all(rates <= high), rates
+
+
+def case_test(
+    case: Case, forces: tuple[float, ...], reference: float | None, repeats: int, asked: tuple[str, ...]
+) -> MachineTest:
+    return case.test(forces, readings=8, parameters=asked, reference=reference, repeats=repeats)
+
+
+def names_of(test: MachineTest) -> set[str]:
+    return {source.name for source in select_sources(test.machine, test.question.parameters)}
+
+
+def test_the_interval_of_few_readings_counts_its_degrees_of_freedom(typical: Case) -> None:
+    """With 8 readings and about 5 parameters a normal quantile would cover 87 %, not 95 %."""
+    test = case_test(typical, (300.0,), None, 1, ("C_XX*", "C_YY*", "C_ZZ*"))
+    truth = {name: value for name, value in random_truth(test).items() if name in names_of(test)}
+    rates = coverage(test, truth)
+    low, high = bounds(DRAWS, len(rates))
+    assert np.all((low <= rates) & (rates <= high)), rates
+
+
+def rearranged(test: MachineTest, order: Array) -> MachineTest:
+    runs = [replace(run, columns={name: column[order] for name, column in run.columns.items()}) for run in test.runs]
+    return replace(test, runs=tuple(runs))
+
+
+def with_stronger_forces(test: MachineTest, factor: float) -> MachineTest:
+    """The same readings at forces counted in a smaller unit."""
+    runs = [replace(run, force=run.force * factor) for run in test.runs]
+    question = test.question
+    if question.reference_force is not None:
+        question = replace(question, reference_force=question.reference_force * factor)
+    return replace(test, runs=tuple(runs), question=question)
+
+
+def assert_same_answer(one: Identification, other: Identification, per_newton: float = 1.0) -> None:
+    assert one.confounding.retained == other.confounding.retained
+    assert one.confounding.null == other.confounding.null
+    assert one.confounding.condition_scaled == pytest.approx(other.confounding.condition_scaled, rel=1e-10)
+    for a, b in zip(one.parameters, other.parameters, strict=True):
+        size = max(abs(a.value), a.standard_uncertainty)
+        assert b.value * per_newton == pytest.approx(a.value, abs=1e-10 * size)
+        assert b.standard_uncertainty * per_newton == pytest.approx(a.standard_uncertainty, rel=1e-9)
+        assert b.peak_to_peak == pytest.approx(a.peak_to_peak, rel=1e-8)
+    assert one.rmse == pytest.approx(other.rmse, rel=1e-10)
+
+
+@pytest.mark.parametrize("reference", [None, 36.0], ids=["raw", "reference taken off"])
+def test_the_answer_depends_on_no_convention(typical: Case, reference: float | None) -> None:
+    """Start angle, direction, row order, order of the runs, unit of force."""
+    forces = (36.0, 112.0, 490.0)
+    test = typical.test(forces, parameters=("C_XX*", "C_YY*", "C_ZZ*", "C_CX*", "C_CC*"), reference=reference)
+    names = names_of(test)
+    truth = {name: value for name, value in random_truth(test).items() if name in names}
+    test = simulate(test, truth, Imperfection(noise=NOISE), seed=5, exact=False)
+    plain = identify(test)
+    rows = np.arange(36)
+    for order in (np.roll(rows, 7), rows[::-1], np.random.default_rng(1).permutation(rows)):
+        assert_same_answer(plain, identify(rearranged(test, order)))
+    clockwise = rearranged(test, rows[::-1])
+    clockwise = replace(clockwise, runs=tuple(replace(run, sense=-1) for run in clockwise.runs))
+    assert_same_answer(plain, identify(clockwise))
+    assert_same_answer(plain, identify(replace(test, runs=test.runs[::-1])))
+    assert_same_answer(plain, identify(with_stronger_forces(test, 1000.0)), per_newton=1000.0)
+
+
+def test_a_run_read_twice_has_the_weight_of_two(typical: Case) -> None:
+    """Two runs alike: the same values, and all covariances halved but for the degrees of freedom."""
+    test = simulate(typical.test(parameters=("C_XX*", "C_YY*")), {"C_XXX": 1e-5}, Imperfection(noise=NOISE), exact=False)
+    again = tuple(replace(run, name=f"{run.name} again") for run in test.runs)
+    one, two = identify(test), identify(replace(test, runs=test.runs + again))
+    assert_allclose(two.solution.values, one.solution.values, rtol=1e-9, atol=1e-10 * np.abs(one.solution.values).max())
+    m, p = sum(level.readings for level in one.levels), len(one.parameters)
+    ratio = (two.solution.standard_uncertainty / one.solution.standard_uncertainty) ** 2
+    assert_allclose(ratio, (m - p) / (2 * m - p), rtol=1e-9)

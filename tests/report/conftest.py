@@ -1,0 +1,37 @@
+"""Results to report on: one as rich as a result gets, and one as poor."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from elastogeo.identify import identify
+from elastogeo.observe import Imperfection, Question
+from elastogeo.sources import simulate
+
+TRUTH = {"C_XXX": 6.19e-5, "C_XYX": 7.98e-7, "C_YYY": 4.61e-5, "C_CXY": -2.69e-8, "C_CYY": -1.66e-8, "C_CCY": -1.1e-9}
+
+
+@pytest.fixture(scope="session")
+def rich(make_test, thesis_forces):
+    """Seven levels, two of them repeated three times, reference taken off, resolution given, simulated."""
+    test = make_test("wCAFYXZSt", thesis_forces, readings=180, repeats=3, reference=36.0)
+    runs = tuple(run for run in test.runs if run.repeat == 1 or run.force in (364.0, 490.0))
+    test = replace(test, runs=runs, resolution=0.00024, simulated="the global parameters of Table 5.5")
+    return identify(simulate(test, TRUTH, Imperfection(noise=7e-5, resolution=0.00024), seed=1))
+
+
+@pytest.fixture(scope="session")
+def poor(make_test):
+    """One level, one run, nothing repeated, no reference, no resolution, measured."""
+    test = make_test("wFYXt", (100.0,), readings=36)
+    return identify(replace(simulate(test, TRUTH, Imperfection(noise=7e-5), seed=2), simulated=""))
+
+
+@pytest.fixture(scope="session")
+def geometric(make_test, thesis_forces):
+    """Compliance and geometry together: everything told apart."""
+    test = make_test("wCAFYXZSt", thesis_forces, readings=90)
+    test = replace(test, question=Question(("elasto-geometric-xy",)))
+    return identify(simulate(test, {**TRUTH, "E_XX1": -1.3e-4, "E_Xt0": 0.0039}, Imperfection(noise=7e-5), seed=3))

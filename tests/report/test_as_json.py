@@ -1,0 +1,144 @@
+"""The doors' contract: keys, plain types, the result's own numbers, never a number that is none."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from math import inf, isfinite, nan
+
+import numpy as np
+import pytest
+
+import elastogeo
+from elastogeo.report import confounding_json, identification_json, machine_json
+
+KEYS = {
+    "schema",
+    "software",
+    "test",
+    "parameters",
+    "null",
+    "confounded",
+    "rank",
+    "columns",
+    "condition_raw",
+    "condition_scaled",
+    "rmse_um",
+    "levels",
+    "local",
+    "repeats",
+    "minimum_norm",
+    "verdict",
+}
+PARAMETER_KEYS = {
+    "name",
+    "value",
+    "unit",
+    "standard_uncertainty",
+    "interval95",
+    "stands_for",
+    "peak_to_peak_um",
+    "share",
+    "meaning",
+}
+
+
+def types_in(value: object) -> set[type]:
+    inside = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return {type(value)}.union(*(types_in(item) for item in inside))
+
+
+@pytest.mark.parametrize("name", ["rich", "poor", "geometric"])
+def test_keys_and_plain_types(name, request) -> None:
+    document = identification_json(request.getfixturevalue(name))
+    assert set(document) == KEYS
+    assert {frozenset(parameter) for parameter in document["parameters"]} == {frozenset(PARAMETER_KEYS)}
+    assert types_in(document) <= {dict, list, str, int, float, bool, type(None)}
+    assert json.loads(json.dumps(document, allow_nan=False)) == document
+
+
+def test_numbers_are_those_of_the_result(rich) -> None:
+    document = identification_json(rich)
+    assert document["schema"] == "elastogeo.identification/1"
+    assert document["software"] == {"name": "elastogeo", "version": elastogeo.__version__}
+    assert document["test"] == {
+        "name": "test",
+        "machine": "wCAFYXZSt",
+        "topology": "wCAFYXZSt",
+        "instrument": "loaded-ball-bar",
+        "simulated": "the global parameters of Table 5.5",
+        "reference_force_N": 36.0,
+        "resolution_um": pytest.approx(0.24),
+        "runs": 11,
+    }
+    first, parameter = document["parameters"][0], rich.parameters[0]
+    assert first["value"] == parameter.value
+    assert first["interval95"] == list(parameter.interval)
+    assert first["peak_to_peak_um"] == 1000 * parameter.peak_to_peak
+    assert first["stands_for"] == parameter.stands_for
+    assert document["rank"] == 6
+    assert document["columns"] == 18
+    assert document["null"] == ["C_XCX", "C_YCX", "C_CXX", "C_CYX", "C_CCX"]
+    assert ["C_CCY"] not in document["confounded"]
+    assert ["C_XXX", "C_XXY"] in document["confounded"]
+    assert [level["force_N"] for level in document["levels"]] == [76, 202, 328, 454, 580, 706]
+    assert document["levels"][0]["rmse_um"] == 1000 * rich.levels[0].rmse
+    assert document["local"][0]["forces_N"] == [76, 202]
+    assert document["local"][0]["values"][0]["value"] == rich.local[0].solution.values[0]
+    assert [check["passed"] for check in document["verdict"]] == [check.passed for check in rich.verdict]
+
+
+def test_negative_parameters_have_a_negative_peak_to_peak(rich) -> None:
+    by_name = {p["name"]: p for p in identification_json(rich)["parameters"]}
+    assert by_name["C_CCY"]["peak_to_peak_um"] < 0 < by_name["C_XXX"]["peak_to_peak_um"]
+
+
+def test_repeats(rich, poor) -> None:
+    repeats = identification_json(rich)["repeats"]
+    assert identification_json(poor)["repeats"] is None
+    assert repeats["levels"] == {"328 N": 3, "454 N": 3}
+    assert repeats["combinations"] == 9
+    assert repeats["combination_std"]["C_XXX"] == rich.repeats.combination_std[0]
+    assert repeats["standard_uncertainty"]["C_XXX"] == rich.repeats.solution.standard_uncertainty[0]
+    assert 2 <= repeats["degrees_of_freedom"]["C_XXX"] <= 4
+    assert "not independent" in repeats["note"]
+    assert "reference" in repeats["note"]
+
+
+def test_a_number_that_is_none_is_null(rich) -> None:
+    level = replace(rich.levels[0], fitness=nan)
+    solution = replace(rich.repeats.solution, degrees_of_freedom=np.full(6, inf))
+    document = identification_json(
+        replace(rich, levels=(level,), repeats=replace(rich.repeats, solution=solution), rmse=np.float64(inf))
+    )
+    assert document["levels"][0]["fitness_percent"] is None
+    assert set(document["repeats"]["degrees_of_freedom"].values()) == {None}
+    assert document["rmse_um"] is None
+    assert "NaN" not in json.dumps(document, allow_nan=False)
+
+
+def test_confounding(rich) -> None:
+    document = confounding_json(rich.confounding, rich.test)
+    assert document["schema"] == "elastogeo.confounding/1"
+    assert document["retained"][0]["name"] == "C_XXX"
+    assert set(document["retained"][0]["stands_for"]) == {"C_XXX", "C_XXY"}
+    assert ["C_CCY"] in document["groups"]
+    assert list(document["weakest"]) == list(rich.confounding.retained)
+    assert sum(c**2 for c in document["weakest"].values()) == pytest.approx(1)
+    assert all(isfinite(s) for s in document["singular_values"])
+    assert types_in(document) <= {dict, list, str, int, float, bool, type(None)}
+    assert json.loads(json.dumps(document, allow_nan=False)) == document
+
+
+def test_machine(make_machine) -> None:
+    document = machine_json(make_machine("wCAFYXZSt"))
+    assert document["schema"] == "elastogeo.machine/1"
+    assert document["topology_iso"] == "[w C' A' b Y X Z (C1) t]"
+    assert [axis["name"] for axis in document["axes"]] == list("CAYXZS")
+    assert document["axes"][0]["travel_unit"] == "rad"
+    assert document["axes"][2]["travel"] == [None, None]
+    assert json.loads(json.dumps(document, allow_nan=False)) == document
+
+
+def test_two_results_are_not_one_document(rich, poor) -> None:
+    assert identification_json(rich)["parameters"] != identification_json(poor)["parameters"]

@@ -1,0 +1,137 @@
+"""Figures: they are there, they are the same twice, they stay small."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from elastogeo.errors import InputError
+from elastogeo.report import MissingExtraError, figures, save_figures
+from elastogeo.report.figures import inline_svg
+from elastogeo.report.style import force_colours, nice_step, thinned
+
+ALWAYS = ["traces", "residuals", "contributions", "patterns"]
+
+
+def test_every_figure_that_there_is_something_for(rich, poor, geometric) -> None:
+    assert list(figures(rich)) == [*ALWAYS, "local", "repeats"]
+    assert list(figures(poor)) == ALWAYS
+    assert list(figures(geometric)) == [*ALWAYS, "local"]
+
+
+def test_files_are_the_same_bytes_twice(rich, tmp_path) -> None:
+    one, two = save_figures(rich, tmp_path / "one"), save_figures(rich, tmp_path / "two")
+    assert len(one) == 12
+    for first, second in zip(one, two, strict=True):
+        assert first.name == second.name
+        assert first.read_bytes() == second.read_bytes(), first.name
+
+
+def test_files_are_what_their_names_say(poor, tmp_path) -> None:
+    for path in save_figures(poor, tmp_path):
+        data = path.read_bytes()
+        assert 3_000 < len(data) < 1_000_000, path.name
+        if path.suffix == ".svg":
+            assert ElementTree.fromstring(data).tag.endswith("svg")
+            assert b"<dc:date>" not in data
+        else:
+            assert data.startswith(b"\x89PNG\r\n\x1a\n")
+
+
+def test_formats_are_chosen_and_unknown_ones_refused(poor, tmp_path) -> None:
+    assert {path.suffix for path in save_figures(poor, tmp_path, formats=["svg"])} == {".svg"}
+    with pytest.raises(InputError, match=r"cannot be saved as gif; the formats are svg, png"):
+        save_figures(poor, tmp_path, formats=["gif"])
+
+
+def test_the_magnification_and_the_division_are_stated(rich) -> None:
+    traces = figures(rich)["traces"]
+    notes = [text.get_text() for text in traces.axes[0].texts]
+    assert "one division = 10 µm; deviations are magnified 2000 times" in notes
+    legend = [text.get_text() for text in traces.axes[0].get_legend().get_texts()]
+    assert legend == ["706 N", "580 N", "454 N", "328 N", "202 N", "76 N", "predicted", "nominal circle"]
+
+
+def test_traces_are_drawn_where_they_were_measured(poor) -> None:
+    trace, ax = poor.traces[0], figures(poor)["traces"].axes[0]
+    magnification = float(re.search(r"magnified (\d+) times", ax.texts[-1].get_text())[1])
+    drawn = next(line for line in ax.lines if len(line.get_xdata()) == 37 and line.get_linestyle() == "-")
+    x, y = (np.asarray(data)[:-1] for data in drawn.get_data())
+    assert np.hypot(x, y) == pytest.approx(150 + magnification * trace.measured)
+    assert np.unwrap(np.arctan2(y, x)) == pytest.approx(trace.pose)
+
+
+def test_contributions_are_signed_and_ranked(rich) -> None:
+    bars = figures(rich)["contributions"].axes[0].patches
+    spans = [bar.get_width() for bar in bars if bar.get_height() == pytest.approx(0.62)]
+    expected = sorted((1000 * p.peak_to_peak for p in rich.parameters), key=abs)
+    assert spans == pytest.approx(expected)
+
+
+def test_patterns_name_their_groups(rich) -> None:
+    axes = figures(rich)["patterns"].axes
+    assert len(axes) == 6
+    assert axes[0].get_title() == "like C_XXY"
+    assert axes[-1].get_title() == "C_CCY"
+
+
+def test_inline_figures_share_no_identifier_and_hold_no_address(rich) -> None:
+    drawn = figures(rich)
+    one, two = (inline_svg(drawn[name], name, "a figure") for name in ("local", "repeats"))
+    for svg, name in ((one, "local"), (two, "repeats")):
+        assert svg.startswith("<svg")
+        assert "http" not in svg
+        ids = {element.get("id") for element in ElementTree.fromstring(svg).iter()} - {None}
+        assert ids
+        assert all(identifier.startswith(f"{name}-") for identifier in ids)
+        for used in ElementTree.fromstring(svg).iter():
+            if href := used.get("href"):
+                assert href.removeprefix("#") in ids
+
+
+@pytest.mark.parametrize(("largest", "step"), [(2877.0, 2000), (1000.0, 1000), (0.0146, 0.01), (7.0, 5), (0.2, 0.2)])
+def test_nice_step(largest: float, step: float) -> None:
+    assert nice_step(largest) == pytest.approx(step)
+
+
+def test_thinning_keeps_the_extremes_and_the_order() -> None:
+    pose = np.linspace(0, 6, 100_000)
+    values = np.random.default_rng(0).standard_normal(100_000)
+    values[77_777] = 9.0
+    few_pose, few = thinned(pose, values, traces=10)
+    assert len(few) < 4_000
+    assert few.max() == 9.0
+    assert few.min() == values.min()
+    assert (np.diff(few_pose) > 0).all()
+
+
+def test_each_level_has_its_own_colour() -> None:
+    assert len(set(force_colours([76.0, 202.0, 328.0]).values())) == 3
+    assert len(force_colours([100.0])) == 1
+
+
+def test_importing_the_room_draws_nothing() -> None:
+    probe = "import sys, elastogeo.report; print([n for n in ('matplotlib', 'jinja2', 'markupsafe') if n in sys.modules])"
+    assert subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True).stdout == "[]\n"
+
+
+def test_without_matplotlib_it_says_what_to_install(poor, monkeypatch) -> None:
+    for name in [name for name in sys.modules if name.partition(".")[0] == "matplotlib"]:
+        monkeypatch.delitem(sys.modules, name)
+    for room in ("style", "contributions", "traces", "patterns", "estimates"):
+        monkeypatch.delitem(sys.modules, f"elastogeo.report.{room}", raising=False)
+
+    class Absent:
+        @staticmethod
+        def find_spec(name: str, *_: object) -> None:
+            if name.partition(".")[0] == "matplotlib":
+                raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+    monkeypatch.setattr(sys, "meta_path", [Absent, *sys.meta_path])
+    with pytest.raises(MissingExtraError, match=r"needs matplotlib.*pip install 'elastogeo\[report\]'"):
+        figures(poor)

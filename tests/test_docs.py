@@ -1,0 +1,38 @@
+"""The documentation is true: its commands run, its code runs, its reference is that of the commands."""
+
+import importlib.util
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+DOCS = Path(__file__).parent.parent / "docs"
+PAGES = ("tutorial.md",)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_block_of_the_tutorial_runs(page, tmp_path):
+    blocks = re.findall(r"```(bash|python)\n(.*?)```", (DOCS / page).read_text(encoding="utf-8"), flags=re.DOTALL)
+    assert len(blocks) >= 5
+    for language, code in blocks:
+        if language == "bash":
+            assert code.startswith("elastogeo ")
+            command = f'"{sys.executable}" -m {code}'
+            done = subprocess.run(command, shell=True, cwd=tmp_path, capture_output=True, text=True, check=False)
+        else:
+            done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, f"{code}\n{done.stdout}\n{done.stderr}"
+        assert done.stdout, code
+
+
+def test_the_reference_of_the_command_line_is_that_of_the_commands():
+    spec = importlib.util.spec_from_file_location("make_cli", DOCS / "make_cli.py")
+    make_cli = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(make_cli)
+    from elastogeo.cli.app import app
+
+    commands = {command.callback.__name__ for command in app.registered_commands}
+    assert set(make_cli.COMMANDS) == commands, "docs/make_cli.py does not know every command"
+    assert make_cli.PAGE.read_text(encoding="utf-8") == make_cli.reference(), "run: python docs/make_cli.py"
