@@ -139,3 +139,9 @@ def case(request: pytest.FixtureRequest) -> Case:
 def typical(request: pytest.FixtureRequest) -> Case:
     """A few cases, for what takes many draws."""
     return request.param
+
+
+@pytest.fixture(scope="session")
+def case_of() -> Callable[[str], Case]:
+    """The ball bar's case in an arrangement, by its name."""
+    return lambda name: next(c for c in CASES if c.instrument == "loaded-ball-bar" and str(c.arrangement) == name)

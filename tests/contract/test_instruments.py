@@ -16,12 +16,13 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy import stats
 
-from elastogeo.errors import RankError
-from elastogeo.estimate import solve
+from elastogeo.errors import RankError, UnsupportedError
+from elastogeo.estimate import factor_blocks, solve
 from elastogeo.identify import Identification, confounding_of, identify, merged, noise_of, systems_of
 from elastogeo.machine import Array
 from elastogeo.observe import Imperfection, MachineTest, Observations, instruments
 from elastogeo.sources import (
+    Situation,
     Source,
     catalogue,
     design_rows,
@@ -35,7 +36,9 @@ from elastogeo.sources import (
 TYPICAL_SIZE = {"mm/N": 1e-5, "rad/N": 3e-8, "mm/(N mm)": 3e-8, "rad/(N mm)": 1e-10}
 """Of a compliance, by unit: each then moves the readings by micrometres."""
 
-DRAWS = 600
+DRAWS = 2000
+SHORT_DRAWS = 400
+READINGS = 12
 NOISE = 1e-4
 Case = Any
 
@@ -62,9 +65,16 @@ def difference_quotient(source: Source, test: MachineTest, observed: Observation
 
 def linear_drive(source: Source, test: MachineTest, observed: Observations) -> float:
     """Greatest absolute value of a source's driver."""
-    from elastogeo.sources import Situation
-
     return float(np.max(np.abs(source.driver(Situation(test.machine, observed)))))
+
+
+def is_known(source: Source, test: MachineTest, observed: Observations) -> bool:
+    """Whether what drives the source is known at all: accelerations are not where a rotary axis turns along."""
+    try:
+        linear_drive(source, test, observed)
+    except UnsupportedError:
+        return False
+    return True
 
 
 def worst_by_unit(sources: list[Source], analytic: Array, numeric: Array) -> dict[str, float]:
@@ -86,8 +96,11 @@ def test_columns_are_the_derivatives_of_the_exact_response(case: Case) -> None:
     """On all 36 n compliances, and on every other source of the catalogue: error motions, location errors, offsets."""
     test = case.test(forces=(300.0,), readings=12)
     (observed,) = test.observations()
-    sources = list(catalogue(test.machine).values())
-    assert sum(source.elastic for source in sources) == 36 * len(test.machine.compliant)
+    compliances = select_sources(test.machine, ["C_*"])
+    assert len(compliances) == 36 * len(test.machine.compliant)
+    others = [source for name, source in catalogue(test.machine).items() if not name.startswith("C_")]
+    sources = [*compliances, *(source for source in others if is_known(source, test, observed))]
+    assert len(sources) == len(compliances) + len(others) or case.arrangement.rotary_turn
     analytic = design_rows(sources, test.machine, observed)[:, :-1]
     numeric = np.column_stack([difference_quotient(source, test, observed) for source in sources])
     worst = worst_by_unit(sources, analytic, numeric)
@@ -125,7 +138,10 @@ def test_what_is_identified_is_the_truth(identified: tuple[MachineTest, dict[str
     stated = np.array([sum(c * truth[name] for name, c in p.stands_for.items()) for p in result.parameters]) * scale
     assert len(result.parameters) == result.confounding.rank
     assert np.abs(values).max() > 1e-3
-    assert_allclose(values, stated, rtol=0, atol=1e-9 * np.abs(values).max())
+    # a weak direction amplifies the rounding of the readings, and says so by its condition number
+    tolerance = max(1e-9, 1e-15 * result.confounding.condition_scaled)
+    print(result.test.name, np.abs(values - stated).max() / np.abs(values).max(), result.confounding.condition_scaled)
+    assert_allclose(values, stated, rtol=0, atol=tolerance * np.abs(values).max())
 
 
 def test_prediction_equals_the_readings(identified: tuple[MachineTest, dict[str, float], Identification]) -> None:
@@ -137,7 +153,8 @@ def test_prediction_equals_the_readings(identified: tuple[MachineTest, dict[str,
         assert_allclose(trace.predicted, readings, rtol=0, atol=1e-9 * np.ptp(readings))
     everything = [result.minimum_norm[name] for name in result.confounding.labels]
     for system, trace in zip(systems_of(test).runs, result.traces, strict=True):
-        assert_allclose(system.design @ everything, trace.measured, rtol=0, atol=1e-9 * np.ptp(trace.measured))
+        # directions weaker than the stated tolerance are left out of the minimum norm
+        assert_allclose(system.design @ everything, trace.measured, rtol=0, atol=1e-8 * np.ptp(trace.measured))
     assert all(level.fitness == pytest.approx(100.0, abs=1e-6) for level in result.levels)
 
 
@@ -145,17 +162,21 @@ def test_the_retained_columns_combine_to_all_others(
     identified: tuple[MachineTest, dict[str, float], Identification],
 ) -> None:
     test, _, result = identified
-    A = np.vstack([run.design for run in systems_of(test).runs])
+    systems, found = systems_of(test), result.confounding
+    A = np.vstack([run.design for run in systems.runs])
     norms = np.linalg.norm(A, axis=0)
-    norms[norms == 0] = 1.0
-    found = result.confounding
-    retained = [found.labels.index(name) for name in found.retained]
-    assert_allclose((A[:, retained] @ found.combinations) / norms, A / norms, atol=2e-8)
-    # the rank is that of the singular values of the scaled columns, with a clear gap
-    alive = [k for k, name in enumerate(found.labels) if name not in found.null]
-    singular = np.linalg.svd(A[:, alive] / norms[alive], compute_uv=False)
-    assert singular[found.rank - 1] > 1e-8 * singular[0]
-    assert np.all(singular[found.rank :] < 1e-10 * singular[0])
+    unit = np.array([source.unit for source in systems.sources])
+    is_null = np.isin(found.labels, found.null)
+    for one in set(unit):
+        assert np.all(norms[is_null & (unit == one)] <= 1e-12 * norms[unit == one].max(initial=0.0))
+    A, norms = A[:, ~is_null], norms[~is_null]
+    retained = np.isin(found.labels, found.retained)[~is_null]
+    combined = A[:, retained] @ found.combinations[:, ~is_null]
+    assert not found.combinations[:, is_null].any()
+    assert_allclose(combined / norms, A / norms, atol=1e-9 if found.condition_scaled < 1e6 else 2e-8)
+    # a second opinion on the rank: singular values of all scaled columns, between the tolerance and rounding error
+    singular = np.linalg.svd(A / norms, compute_uv=False)
+    assert np.sum(singular > 1e-7 * singular[0]) <= found.rank <= np.sum(singular > 1e-13 * singular[0])
 
 
 def test_a_purely_radial_force_cannot_tell_mirrored_terms(case: Case) -> None:
@@ -179,7 +200,7 @@ def test_a_deficient_question_is_refused_and_named(
     test, _, result = identified
     found = result.confounding
     assert found.rank < len(found.labels)
-    with pytest.raises(RankError, match="changes no reading of this test|are not independent in this test"):
+    with pytest.raises(RankError, match=r"changes no reading of this test|are not independent in this test"):
         solve(merged(systems_of(test).runs))
     told = {check.name: check for check in result.verdict}["identifiable"]
     assert not told.passed
@@ -195,58 +216,61 @@ def bounds(draws: int, comparisons: int) -> tuple[float, float]:
     return stats.binom.ppf(tail, draws, 0.95) / draws, stats.binom.ppf(1 - tail, draws, 0.95) / draws
 
 
-def coverage(test: MachineTest, truth: Mapping[str, float], draws: int = DRAWS) -> Array:
-    """How often each parameter's 95 % interval holds the truth, over many noisy simulations of the test."""
-    found = confounding_of(test, systems_of(test))
-    stated = np.array([sum(c * truth[name] for name, c in found.stands_for(r).items()) for r in found.retained])
+def check_coverage(inside: Array, draws: int, what: str) -> None:
+    """Whether each parameter's intervals held the truth in 95 % of the draws."""
+    rates = inside / draws
+    low, high = bounds(draws, len(rates))
+    print(f"{what}: coverage {rates.min():.4f} to {rates.max():.4f}, mean {rates.mean():.4f}; bounds {low:.4f} {high:.4f}")
+    assert np.all((low <= rates) & (rates <= high)), rates
+
+
+FORCE_PLANS = {
+    "no reference": ((112.0, 490.0), None, 1),
+    "one reference run": ((36.0, 112.0, 238.0, 364.0, 490.0), 36.0, 1),
+    "three reference runs": ((36.0, 112.0, 490.0), 36.0, 3),
+}
+"""Force levels, the reference among them, runs per level."""
+
+
+@pytest.mark.parametrize("plan", FORCE_PLANS)
+def test_intervals_cover_at_their_rate(case: Case, plan: str) -> None:
+    """Noise is drawn per run, at every reading; the reference's mean is taken off, so its noise is shared by all."""
+    forces, reference, repeats = FORCE_PLANS[plan]
+    test = case.test(
+        forces, readings=READINGS, parameters=("C_XX*", "C_YY*", "C_ZZ*", "C_CC*"), reference=reference, repeats=repeats
+    )
+    systems = systems_of(test)
+    found = confounding_of(test, systems)
+    labels, noise = systems.runs[0].factor.labels, noise_of(systems.runs, systems.references)
+    random = np.random.default_rng(95)
     inside = np.zeros(found.rank)
-    for seed in range(draws):
-        systems = systems_of(simulate(test, truth, Imperfection(noise=NOISE), seed=seed, exact=False))
-        solution = solve(merged(systems.runs), found.retained, noise_of(systems.runs, systems.references))
-        low, high = solution.interval().T
-        inside += (low <= stated) & (stated <= high)
-    return inside / draws
+    for _ in range(DRAWS):
+        shared = NOISE * random.standard_normal((systems.references, READINGS)).mean(axis=0) if systems.references else 0.0
+        blocks = []
+        for run in systems.runs:  # the truth is zero: least squares is linear
+            block = run.rows.copy(order="F")
+            block[:, -1] = NOISE * random.standard_normal(READINGS) - shared
+            blocks.append(block)
+        low, high = solve(factor_blocks(labels, blocks), found.retained, noise).interval().T
+        inside += (low <= 0) & (high >= 0)
+    check_coverage(inside, DRAWS, f"{case}, {plan}")
 
 
-@pytest.mark.parametrize(
-    ("forces", "reference", "repeats"),
-    [
-        ((112.0, 490.0), None, 1),
-        ((36.0, 112.0, 238.0, 364.0, 490.0), 36.0, 1),
-        ((36.0, 112.0, 490.0), 36.0, 3),
-    ],
-    ids=["no reference", "one reference run", "three reference runs"],
-)
-def test_intervals_cover_at_their_rate(
-    typical: Case, forces: tuple[float, ...], reference: float | None, repeats: int
-) -> None:
-    asked = ("C_XX*", "C_YY*", "C_ZZ*", "C_CC*")
-    test = case_test(typical, forces, reference, repeats, asked)
+def test_intervals_cover_at_their_rate_from_simulation_to_result(case_of: Callable[[str], Case]) -> None:
+    """The whole way, from true parameters through simulated runs and the reference taken off to the stated interval."""
+    test = case_of("wFYXt-XY").test((36.0, 112.0, 490.0), readings=12, parameters=["planar-xy"], reference=36.0)
     truth = {name: value for name, value in random_truth(test).items() if name in names_of(test)}
-    rates = coverage(test, truth)
-    low, high = bounds(DRAWS, len(rates))
-    print(typical, forces, reference, repeats, "coverage", rates.min(), rates.mean(), rates.max(), "bounds", low, high)
-    assert np.all(rates >= low), rates
-    assert np.all(rates <= high), rates
-
-
-def case_test(
-    case: Case, forces: tuple[float, ...], reference: float | None, repeats: int, asked: tuple[str, ...]
-) -> MachineTest:
-    return case.test(forces, readings=8, parameters=asked, reference=reference, repeats=repeats)
+    inside: Array = np.zeros(6)
+    for seed in range(SHORT_DRAWS):
+        result = identify(simulate(test, truth, Imperfection(noise=NOISE), seed=seed, exact=False))
+        for k, parameter in enumerate(result.parameters):
+            stated = sum(c * truth[name] for name, c in parameter.stands_for.items())
+            inside[k] += parameter.interval[0] <= stated <= parameter.interval[1]
+    check_coverage(inside, SHORT_DRAWS, "simulation to result")
 
 
 def names_of(test: MachineTest) -> set[str]:
     return {source.name for source in select_sources(test.machine, test.question.parameters)}
-
-
-def test_the_interval_of_few_readings_counts_its_degrees_of_freedom(typical: Case) -> None:
-    """With 8 readings and about 5 parameters a normal quantile would cover 87 %, not 95 %."""
-    test = case_test(typical, (300.0,), None, 1, ("C_XX*", "C_YY*", "C_ZZ*"))
-    truth = {name: value for name, value in random_truth(test).items() if name in names_of(test)}
-    rates = coverage(test, truth)
-    low, high = bounds(DRAWS, len(rates))
-    assert np.all((low <= rates) & (rates <= high)), rates
 
 
 def rearranged(test: MachineTest, order: Array) -> MachineTest:
@@ -298,8 +322,11 @@ def test_a_run_read_twice_has_the_weight_of_two(typical: Case) -> None:
     """Two runs alike: the same values, and all covariances halved but for the degrees of freedom."""
     test = simulate(typical.test(parameters=("C_XX*", "C_YY*")), {"C_XXX": 1e-5}, Imperfection(noise=NOISE), exact=False)
     again = tuple(replace(run, name=f"{run.name} again") for run in test.runs)
-    one, two = identify(test), identify(replace(test, runs=test.runs + again))
-    assert_allclose(two.solution.values, one.solution.values, rtol=1e-9, atol=1e-10 * np.abs(one.solution.values).max())
-    m, p = sum(level.readings for level in one.levels), len(one.parameters)
-    ratio = (two.solution.standard_uncertainty / one.solution.standard_uncertainty) ** 2
+    systems = systems_of(test)
+    retained = confounding_of(test, systems).retained
+    one = solve(merged(systems.runs), retained)
+    two = solve(merged(systems_of(replace(test, runs=test.runs + again)).runs), retained)
+    assert_allclose(two.values, one.values, rtol=1e-9, atol=1e-10 * np.abs(one.values).max())
+    m, p = sum(len(run.rows) for run in systems.runs), len(retained)
+    ratio = (two.standard_uncertainty / one.standard_uncertainty) ** 2
     assert_allclose(ratio, (m - p) / (2 * m - p), rtol=1e-9)

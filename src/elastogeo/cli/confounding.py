@@ -6,13 +6,14 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, Parameters, Prefer, TestPath
+from elastogeo.cli.options import AsJson, Parameters, Prefer, Reference, TestPath
 
 
 def confounding(
     test: TestPath,
     parameters: Parameters = None,
     prefer: Prefer = None,
+    reference: Reference = None,
     planned: Annotated[
         int, typer.Option(help="Readings of a full turn to assume for every run, instead of reading the run files.")
     ] = 0,
@@ -29,7 +30,7 @@ def confounding(
     from elastogeo.identify import confounding_of, systems_of, with_question
     from elastogeo.report import confounding_json
 
-    asked = with_question(read_test(test, full_turn(planned) if planned else None), parameters, prefer)
+    asked = with_question(read_test(test, full_turn(planned) if planned else None), parameters, prefer, reference)
     found = confounding_of(asked, systems_of(asked))
     if as_json:
         screen.show_json(confounding_json(found, asked))

@@ -7,13 +7,14 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, Parameters, Prefer, TestPath
+from elastogeo.cli.options import AsJson, Parameters, Prefer, Reference, TestPath
 
 
 def identify(
     test: TestPath,
     parameters: Parameters = None,
     prefer: Prefer = None,
+    reference: Reference = None,
     report: Annotated[Path | None, typer.Option(help="Folder to write the report and its figures to.")] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -30,7 +31,7 @@ def identify(
     from elastogeo.report import identification_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = with_question(read_test(test), parameters, prefer)
+        asked = with_question(read_test(test), parameters, prefer, reference)
         step("identifying")
         result = identified(asked)
         written = screen.write_report(result, report, step) if report else None

@@ -13,6 +13,9 @@ Parameters = Annotated[
     list[str] | None,
     typer.Option("--parameter", "-p", help="Name, pattern (C_??X) or preset (planar-xy) to ask for; may be repeated."),
 ]
+Reference = Annotated[
+    float | None, typer.Option("--reference", help="Force level [N] to take off from all others; nan for none.")
+]
 Prefer = Annotated[
     list[str] | None,
     typer.Option("--prefer", help="Parameter to retain before others that cannot be told from it; may be repeated."),

@@ -1,26 +1,44 @@
 """Labelled linear least squares, knowing nothing of machines: factor, confounding, solutions. Stands on `errors`."""
 
+from elastogeo.estimate.clusters import solve_by_run
 from elastogeo.estimate.confounding import NULL_TOLERANCE, RANK_TOLERANCE, Confounding, confounding
+from elastogeo.estimate.distributions import DISTRIBUTIONS, Influence, coverage_factor
 from elastogeo.estimate.factor import BLOCK_ROWS, Factor, empty_factor, factor_blocks, merge, select
+from elastogeo.estimate.propagation import (
+    MonteCarlo,
+    effective_degrees_of_freedom,
+    first_order,
+    monte_carlo,
+    numerical_tolerance,
+)
 from elastogeo.estimate.repeats import Repeatability, repeatability
 from elastogeo.estimate.solution import Noise, Solution, minimum_norm, solve, white_noise
 
 __all__ = [
     "BLOCK_ROWS",
+    "DISTRIBUTIONS",
     "NULL_TOLERANCE",
     "RANK_TOLERANCE",
     "Confounding",
     "Factor",
+    "Influence",
+    "MonteCarlo",
     "Noise",
     "Repeatability",
     "Solution",
     "confounding",
+    "coverage_factor",
+    "effective_degrees_of_freedom",
     "empty_factor",
     "factor_blocks",
+    "first_order",
     "merge",
     "minimum_norm",
+    "monte_carlo",
+    "numerical_tolerance",
     "repeatability",
     "select",
     "solve",
+    "solve_by_run",
     "white_noise",
 ]

@@ -33,6 +33,9 @@ _BOUNDED = {
 
 DISTRIBUTIONS = ("normal", *_BOUNDED)
 
+UNCERTAIN_SCALES = ("normal", "rectangular")
+"""Distributions whose scale may be uncertain itself: those with finite degrees of freedom."""
+
 
 @dataclass(frozen=True, slots=True)
 class Influence:
@@ -47,7 +50,9 @@ class Influence:
     distribution : str
         One of `DISTRIBUTIONS`.
     degrees_of_freedom : float
-        Of the scale; infinite if it is taken as known. Finite only for a normal distribution, which then becomes Student's.
+        Of the scale; infinite if it is taken as known. If finite, a normal distribution becomes Student's, and the limits
+        of a rectangular one are themselves uncertain by their `1 / sqrt(2 degrees_of_freedom)`-th part (JCGM 100, G.4.2;
+        JCGM 101, 6.4.3); the others must be known.
     type_b : bool
         Whether it comes from other knowledge than the scatter of the readings (JCGM 100, 2.3.3).
     """
@@ -68,18 +73,32 @@ class Influence:
             raise InputError(
                 f"influence {self.label!r}: {self.degrees_of_freedom:g} degrees of freedom, it needs more than 0"
             )
-        if self.distribution != "normal" and isfinite(self.degrees_of_freedom):
-            raise InputError(f"influence {self.label!r}: only a normal distribution can have finite degrees of freedom")
+        if isfinite(self.degrees_of_freedom) and self.distribution not in UNCERTAIN_SCALES:
+            raise InputError(
+                f"influence {self.label!r}: a {self.distribution} distribution cannot have finite degrees of freedom, "
+                f"only {' or '.join(UNCERTAIN_SCALES)} can"
+            )
+        if self.distribution == "rectangular" and self.degrees_of_freedom < 0.5:
+            raise InputError(
+                f"influence {self.label!r}: with {self.degrees_of_freedom:g} degrees of freedom the limits would be more "
+                f"uncertain than they are wide; a rectangular distribution needs at least 0.5"
+            )
 
     @property
     def standard_uncertainty(self) -> float:
-        """Standard uncertainty (JCGM 100, 4.3)."""
+        """Standard uncertainty (JCGM 100, 4.3); what the scale itself is worth is in the degrees of freedom."""
         return self.scale * (_BOUNDED[self.distribution].deviation if self.distribution in _BOUNDED else 1.0)
 
     def draws(self, random: np.random.Generator, count: int) -> Array:
-        """Random values about zero, shape (count,) (JCGM 101, 6.4)."""
+        """Random values about zero, shape (count,) (JCGM 101, 6.4).
+
+        With finite degrees of freedom they spread wider than the standard uncertainty: they include that of the scale.
+        """
         if self.distribution in _BOUNDED:
-            return np.asarray(self.scale * _BOUNDED[self.distribution].quantile(random.random(count)))
+            scale: float | Array = self.scale
+            if isfinite(self.degrees_of_freedom):
+                scale = scale * (1 + (2 * random.random(count) - 1) / sqrt(2 * self.degrees_of_freedom))
+            return np.asarray(scale * _BOUNDED[self.distribution].quantile(random.random(count)))
         if isfinite(self.degrees_of_freedom):
             return np.asarray(self.scale * random.standard_t(self.degrees_of_freedom, count))
         return np.asarray(self.scale * random.standard_normal(count))

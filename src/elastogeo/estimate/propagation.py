@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 
-from elastogeo.errors import UnsupportedError
+from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.estimate.factor import Array
 
 BLOCK_TRIALS = 10_000
+"""Least trials between two looks at the stability; high coverage needs more (JCGM 101, 7.9.4 b)."""
 
 
 def first_order(sensitivities: Array, covariance: Array) -> Array:
@@ -91,14 +93,22 @@ def monte_carlo(
 
     Raises
     ------
+    InputError
+        If the coverage is no probability, or an output is no finite number.
     UnsupportedError
         If the results are not stable by then.
     """
+    if not 0 < coverage < 1:
+        raise InputError(f"a coverage probability lies between 0 and 1, got {coverage:g}")
+    size = max(BLOCK_TRIALS, ceil(round(100 / (1 - coverage), 6)))
     random = np.random.default_rng(seed)
     blocks: list[Array] = []
     figures: list[Array] = []
-    while len(blocks) * BLOCK_TRIALS < most:
-        block = outputs(random, BLOCK_TRIALS)
+    while (len(blocks) + 1) * size <= most:
+        block = outputs(random, size)
+        if not np.isfinite(block).all():
+            wrong = int((~np.isfinite(block)).any(axis=1).sum())
+            raise InputError(f"{wrong} of {size} Monte Carlo trials gave an output that is NaN or infinite")
         blocks.append(block)
         low, high = _symmetric(block, coverage)
         figures.append(np.array([block.mean(axis=0), block.std(axis=0, ddof=1), low, high]))

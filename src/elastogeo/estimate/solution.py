@@ -13,6 +13,10 @@ from elastogeo.errors import DegreesOfFreedomError, RankError
 from elastogeo.estimate.confounding import RANK_TOLERANCE
 from elastogeo.estimate.factor import Array, Factor, select
 
+SOLVABLE = 1e-12
+"""Least ratio of singular values of the scaled columns that is solved; below, rounding error decides. Far below the
+tolerance of `confounding`, whose retained sets must be solvable however weak a direction of theirs is."""
+
 
 @dataclass(frozen=True, slots=True)
 class Noise:
@@ -69,7 +73,9 @@ def white_noise(factor: Factor) -> Noise:
     return Noise(factor.R, float(factor.rows), float(factor.rows))
 
 
-def solve(factor: Factor, labels: Sequence[str] | None = None, noise: Noise | None = None) -> Solution:
+def solve(
+    factor: Factor, labels: Sequence[str] | None = None, noise: Noise | None = None, tolerance: float = SOLVABLE
+) -> Solution:
     """Least-squares solution for parameters that the observations determine.
 
     Parameters
@@ -79,6 +85,8 @@ def solve(factor: Factor, labels: Sequence[str] | None = None, noise: Noise | No
         Parameters to solve for, the others being left out of the model (zero); default all.
     noise : Noise, optional
         Covariance structure of the rows; default independent and equal.
+    tolerance : float
+        Least ratio of singular values of the scaled columns that is solved.
 
     Returns
     -------
@@ -102,15 +110,16 @@ def solve(factor: Factor, labels: Sequence[str] | None = None, noise: Noise | No
         raise RankError(f"{', '.join(null)} changes no reading of this test, it cannot be estimated")
     R = chosen.R / norms
     singular_values = np.linalg.svd(R, compute_uv=False)
-    if singular_values[-1] <= RANK_TOLERANCE * singular_values[0]:
+    if singular_values[-1] <= tolerance * singular_values[0]:
         raise RankError(
             f"the {len(labels)} parameters {', '.join(labels)} are not independent in this test; "
             f"ask for the confounding and solve for its retained set"
         )
     root = noise.root[:, [factor.labels.index(label) for label in labels]] / norms
-    spread = solve_triangular(R, solve_triangular(R, root.T, trans="T"))
+    projected = solve_triangular(R, root.T, trans="T")
+    spread = solve_triangular(R, projected)
     covariance = spread @ spread.T / np.outer(norms, norms)
-    freedom = noise.trace - float(np.sum(solve_triangular(R, root.T, trans="T") ** 2))
+    freedom = noise.trace - float(np.sum(projected**2))
     count = noise.trace**2 / noise.square - len(labels)
     if freedom <= 0 or count <= 0:
         raise DegreesOfFreedomError(

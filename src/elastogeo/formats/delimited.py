@@ -19,6 +19,8 @@ NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d+)?", re.ASCII)
 _BOMS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
 _UTF8_SIGNS = ("\u00b5".encode(), "\u03bc".encode(), "\u00b0".encode())
 _PAIR = re.compile(r"([^\W\d][^:=,;|\t\"]{0,79})[:=](.*)", re.DOTALL)
+_DIRECTION = re.compile(r"cc?w|(counter|anti)?[- ]?clockwise|g0?[23]", re.IGNORECASE)
+_KEY = re.compile(r"[^\W\d][^:=,;|\t\"]{0,79}")
 _NUMBERS = re.compile(r"[-+.,\d\"][-+\d.,;|\s\"eE]*")
 _HEADER_WORD = re.compile(r"\"[^\"]*\"|[^\s\[(]+(?:\s*(?:\[[^\[\]]{0,20}\]|\([^()]{0,20}\)))?")
 _WORD = re.compile(r"\"[^\"]*\"|\S+")
@@ -37,7 +39,8 @@ class Heading:
     separator : str or None
         What separates cells; None for runs of blanks.
     metadata : dict of str to str
-        The `key: value` and `key = value` lines; several lines of one key are joined by line ends.
+        The `key: value` and `key = value` lines, and lines of cells that say one number or a direction (`Radius;150;mm`
+        under the key `Radius [mm]`); several lines of one key are joined by line ends.
     first : str
         The first line of numbers; empty if there is none.
     """
@@ -111,9 +114,9 @@ def read_heading(stream: TextIO) -> Heading | None:
     lines = _significant(stream)
     for number, text in lines:
         comment = comment_text(text, None)
-        pair = _PAIR.match(text if comment is None else comment)
+        pair = _pair(text if comment is None else comment)
         if pair:
-            pairs.setdefault(pair[1].strip(), []).append(_unguarded(pair[2].strip()))
+            pairs.setdefault(pair[0], []).append(pair[1])
         elif comment is None:
             break
         elif comment:
@@ -164,6 +167,21 @@ def _unguarded(value: str) -> str:
 
 def _is_formula(value: str) -> bool:
     return value.lstrip("'").startswith(("=", "+", "-", "@")) and not _is_number(value)
+
+
+def _pair(text: str) -> tuple[str, str] | None:
+    """Key and value of a line that says something about the run; None for any other line."""
+    pair = _PAIR.match(text)
+    if pair:
+        return pair[1].strip(), _unguarded(pair[2].strip())
+    for separator in SEPARATORS:
+        cells = [cell.strip() for cell in split_cells(text.rstrip(SEPARATORS), separator)] if separator in text else []
+        if len(cells) not in (2, 3) or not _KEY.fullmatch(cells[0]):
+            continue
+        if NUMBER.fullmatch(cells[1]) or _DIRECTION.fullmatch(cells[1]):
+            unit = f" [{cells[2]}]" if len(cells) == 3 else ""
+            return f"{cells[0]}{unit}", cells[1]
+    return None
 
 
 def _significant(stream: TextIO) -> Iterator[tuple[int, str]]:

@@ -2,6 +2,10 @@
 
 Separated by comma, semicolon, tab, bar or blanks; decimal point or decimal comma; UTF-8, UTF-16 with a byte order mark
 or Latin-1; any line ends; comments and `key: value` lines. Every reading is taken, or the file is refused.
+
+Ball-bar exports: radial readings without angles where the lines above tell the arc (`start angle [deg]: 0`, then
+`end angle [deg]`, or `direction`, `radius [mm]`, `feed rate [mm/min]` and `sample rate [Hz]`); `CCW [um]` and `CW [um]` side
+by side are two runs, the CW one from the end angle to the start angle.
 """
 
 from __future__ import annotations
@@ -13,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from elastogeo.errors import FormatError
+from elastogeo.formats.arc import check_sides, runs_of
 from elastogeo.formats.delimited import (
     NUMBER,
     guarded,
@@ -21,7 +26,7 @@ from elastogeo.formats.delimited import (
     split_cells,
 )
 from elastogeo.formats.readings import Readings
-from elastogeo.formats.run_files import RunFormat, register
+from elastogeo.formats.run_files import RunFormat, only_run, register
 from elastogeo.formats.table import Table, parse_headers
 from elastogeo.formats.units import QUANTITIES, split_unit
 
@@ -46,7 +51,12 @@ def can_read(head: bytes) -> bool:
 
 
 def read_csv(data: bytes, source: str) -> Table:
-    """Read delimited text.
+    """Read delimited text that holds one run; otherwise as `read_csv_runs`."""
+    return only_run(read_csv_runs(data, source), source)
+
+
+def read_csv_runs(data: bytes, source: str) -> tuple[Table, ...]:
+    """Read delimited text: one run, or one for each direction.
 
     Parameters
     ----------
@@ -57,7 +67,7 @@ def read_csv(data: bytes, source: str) -> Table:
 
     Returns
     -------
-    Table
+    tuple of Table
         The readings in internal units [mm, rad, N, N mm, s, mm/s; bar, A, V, degC].
 
     Raises
@@ -75,9 +85,11 @@ def read_csv(data: bytes, source: str) -> Table:
     where = f"{source}, line {heading.line}"
     if not heading.headers:
         raise FormatError(f"{where}: numbers begin without a column header; write one above: 'angle_deg,radial_um'")
-    readings = Readings(heading, parse_headers(heading.headers, where))
+    columns = parse_headers(heading.headers, where)
+    check_sides(columns, where)
+    readings = Readings(heading, columns)
     readings.read(stream)
-    return readings.table(source, ended=data[-2:].rstrip(b"\0")[-1:] in (b"\n", b"\r"))
+    return runs_of(readings.table(source, ended=data[-2:].rstrip(b"\0")[-1:] in (b"\n", b"\r")))
 
 
 def write_csv(columns: Mapping[str, ArrayLike], metadata: Mapping[str, str]) -> bytes:
@@ -132,4 +144,4 @@ def _sample() -> bytes:
     )
 
 
-register(RunFormat("delimited text", ".csv", can_read, read_csv, _sample, write_csv))
+register(RunFormat("delimited text", ".csv", can_read, read_csv, _sample, write_csv, read_csv_runs))

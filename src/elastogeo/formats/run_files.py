@@ -34,13 +34,16 @@ What the contract asks:
 * `read` turns any bytes into a `Table` in internal units, or raises a `FormatError` that says where in the file, what
   arrived, why it will not do, and what to do. It counts all that is wrong and shows the first five;
 * it never drops, pads or rounds a reading; it takes less than a second and ten times the file's size for each megabyte;
-* `sample` gives a small valid file, on which the detectors of all other formats are tried, and all its prefixes read.
+* `sample` gives a small valid file, on which the detectors of all other formats are tried, and all its prefixes read;
+* a format whose files may hold several runs also gives `read_runs`, and makes its `read` of it by `only_run`. People choose
+  a run by its number behind the file's name: `file = "xy.b5r#2"`.
 '''
 
 from __future__ import annotations
 
 import importlib
 import pkgutil
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -54,6 +57,8 @@ from elastogeo.formats.table import Table
 
 HEAD = 65_536
 MAX_BYTES = 100_000_000
+
+_CHOICE = re.compile(r"(?P<path>.+)#(?P<number>\d{1,3})", re.ASCII | re.DOTALL)
 
 Writer = Callable[[Mapping[str, NDArray[np.float64]], Mapping[str, str]], bytes]
 
@@ -77,6 +82,8 @@ class RunFormat:
     write : callable, optional
         `write(columns, metadata)`: bytes of a file; columns are arrays, shape (m,), in the file's own units, keyed by
         header (`radial_um`). Read back, they are the same bit for bit.
+    read_runs : callable, optional
+        `read_runs(data, source)`: all runs of a file that may hold several, in its order; at least one.
     """
 
     name: str
@@ -85,6 +92,7 @@ class RunFormat:
     read: Callable[[bytes, str], Table]
     sample: Callable[[], bytes]
     write: Writer | None = None
+    read_runs: Callable[[bytes, str], tuple[Table, ...]] | None = None
 
 
 _FORMATS: dict[str, RunFormat] = {}
@@ -111,13 +119,26 @@ def run_formats() -> dict[str, RunFormat]:
     return dict(_FORMATS)
 
 
+def only_run(runs: tuple[Table, ...], source: str) -> Table:
+    """The one run of a file.
+
+    Raises
+    ------
+    FormatError
+        If it holds several; the message says how to choose one.
+    """
+    if len(runs) > 1:
+        raise FormatError(f'{source}: holds {_listed(runs)}; choose one by its number: file = "{Path(source).name}#1"')
+    return runs[0]
+
+
 def read_run(path: str | Path) -> Table:
     """Read one run file of any known format, told from its content.
 
     Parameters
     ----------
     path : str or Path
-        The file, of at most `MAX_BYTES` bytes.
+        The file, of at most `MAX_BYTES` bytes; `name#2` is the second run of the file `name`.
 
     Returns
     -------
@@ -130,17 +151,26 @@ def read_run(path: str | Path) -> Table:
         If the file cannot be opened, is too large, is of no known format or of more than one, or has bad content.
     """
     source = str(path)
+    choice = None if Path(path).exists() else _CHOICE.fullmatch(source)
     try:
-        with open(path, "rb") as file:
+        with open(choice["path"] if choice else path, "rb") as file:
             data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise FormatError(f"{source}: cannot be opened ({reason}); check the path and its permissions") from None
-    return read_run_bytes(data, source)
+    return read_run_bytes(data, source, int(choice["number"]) if choice else None)
 
 
-def read_run_bytes(data: bytes, source: str) -> Table:
+def read_run_bytes(data: bytes, source: str, number: int | None = None) -> Table:
     """Read the bytes of a run file, as `read_run` does (an upload, a member of an archive).
+
+    Parameters
+    ----------
+    data : bytes
+    source : str
+        Where they came from, for messages.
+    number : int, optional
+        Which run of the file, from 1; without it the file must hold one only.
 
     Raises
     ------
@@ -154,7 +184,7 @@ def read_run_bytes(data: bytes, source: str) -> Table:
     formats = run_formats()
     found = [f for f in formats.values() if f.can_read(data[:HEAD])]
     if len(found) == 1:
-        return found[0].read(data, source)
+        return _read(found[0], data, source, number)
     known = ", ".join(f"{f.name} ({f.suffix})" for f in formats.values())
     if found:
         claims = " and ".join(f.name for f in found)
@@ -163,3 +193,18 @@ def read_run_bytes(data: bytes, source: str) -> Table:
         f"{source}: begins with {data[:20]!r}, which no known format does; known are {known}. "
         "A text file needs a line of headers with units, such as 'angle_deg,radial_um', above its numbers"
     )
+
+
+def _read(run_format: RunFormat, data: bytes, source: str, number: int | None) -> Table:
+    if number is None or (run_format.read_runs is None and number == 1):
+        return run_format.read(data, source)
+    runs = run_format.read_runs(data, source) if run_format.read_runs else (run_format.read(data, source),)
+    if not 1 <= number <= len(runs):
+        raise FormatError(f"{source}: there is no run {number}; the file holds {_listed(runs)}")
+    return runs[number - 1]
+
+
+def _listed(runs: tuple[Table, ...]) -> str:
+    """The runs of a file in words."""
+    names = (f"#{k} {run.metadata.get('direction', '')}".strip() for k, run in enumerate(runs, 1))
+    return f"{len(runs)} run{'s' if len(runs) > 1 else ''} ({', '.join(names)})"

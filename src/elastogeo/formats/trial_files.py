@@ -13,7 +13,7 @@ from elastogeo.formats.documents import build, check_schema, read_document
 from elastogeo.formats.machine_files import find_machine
 from elastogeo.formats.run_files import read_run
 from elastogeo.machine import Array, OptionalForce, OptionalLength, OptionalPressure
-from elastogeo.observe import MachineTest, Question, Run, instrument_named
+from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, instrument_named
 
 SCHEMA = "elastogeo.test/1"
 FILE_NAME = "test.toml"
@@ -51,6 +51,7 @@ class TestDocument:
     setup: Mapping[str, Any]
     runs: tuple[RunDocument, ...] = ()
     question: Question = field(default_factory=Question)
+    influences: tuple[KnownInfluence, ...] = ()
     resolution: OptionalLength = None
     simulated: str = ""
 
@@ -84,6 +85,7 @@ def read_test(path: Path, columns: Columns | None = None) -> MachineTest:
         runs=tuple(_run(entry, file.parent, columns or _read) for entry in document.runs),
         question=document.question,
         resolution=document.resolution,
+        influences=document.influences,
         simulated=document.simulated,
     )
 

@@ -1,48 +1,85 @@
 """From a test to a design matrix to parameters, with a verdict. Stands on all rooms below; knows no file, no figure."""
 
+from elastogeo.identify.budget import Agreement, Budget, BudgetLine, agreement, uncertainty_budget
+from elastogeo.identify.change import SIGNIFICANT, Change, difference, local_change, run_dispersion
+from elastogeo.identify.circularity import Circularity, circularity
+from elastogeo.identify.comparison import BeforeAfter, Difference, compare_tests
+from elastogeo.identify.diagnosis import Diagnosis, Fault, diagnose
 from elastogeo.identify.fit import Harmonic, fitness, rmse, strongest_harmonic
 from elastogeo.identify.identification import (
-    Identification,
-    Level,
-    Local,
-    Parameter,
-    Pattern,
-    Trace,
     adjacent,
     confounding_of,
+    effects_of,
     identify,
     local_estimates,
     systems_of,
     with_question,
 )
+from elastogeo.identify.influences import Effect, effect, effects
+from elastogeo.identify.models import Comparison, ModelFit, compare_models
+from elastogeo.identify.physics import Consistency, Reciprocity, consistency, reciprocal_sources, reciprocity
 from elastogeo.identify.preference import moving_axes, retaining_order
+from elastogeo.identify.result import Identification, Level, Local, Parameter, Pattern, Trace
 from elastogeo.identify.systems import RunSystem, Systems, merged, noise_of, run_systems
 from elastogeo.identify.verdict import CONDITION_LIMIT, Check
+from elastogeo.identify.what_if import WhatIf, what_if
 
 __all__ = [
     "CONDITION_LIMIT",
+    "SIGNIFICANT",
+    "Agreement",
+    "BeforeAfter",
+    "Budget",
+    "BudgetLine",
+    "Change",
     "Check",
+    "Circularity",
+    "Comparison",
+    "Consistency",
+    "Diagnosis",
+    "Difference",
+    "Effect",
+    "Fault",
     "Harmonic",
     "Identification",
     "Level",
     "Local",
+    "ModelFit",
     "Parameter",
     "Pattern",
+    "Reciprocity",
     "RunSystem",
     "Systems",
     "Trace",
+    "WhatIf",
     "adjacent",
+    "agreement",
+    "circularity",
+    "compare_models",
+    "compare_tests",
     "confounding_of",
+    "consistency",
+    "diagnose",
+    "difference",
+    "effect",
+    "effects",
+    "effects_of",
     "fitness",
     "identify",
+    "local_change",
     "local_estimates",
     "merged",
     "moving_axes",
     "noise_of",
+    "reciprocal_sources",
+    "reciprocity",
     "retaining_order",
     "rmse",
+    "run_dispersion",
     "run_systems",
     "strongest_harmonic",
     "systems_of",
+    "uncertainty_budget",
+    "what_if",
     "with_question",
 ]

@@ -3,171 +3,48 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
+from math import isnan
 
 import numpy as np
 
-from elastogeo.estimate import Confounding, Repeatability, Solution, confounding, minimum_norm, repeatability, solve
+from elastogeo.errors import DegreesOfFreedomError, RankError, UnsupportedError
+from elastogeo.estimate import (
+    Confounding,
+    Repeatability,
+    Solution,
+    confounding,
+    minimum_norm,
+    repeatability,
+    solve,
+    solve_by_run,
+)
+from elastogeo.identify.budget import Budget, uncertainty_budget
+from elastogeo.identify.change import Change, local_change, run_dispersion
 from elastogeo.identify.fit import fitness, rmse, strongest_harmonic
+from elastogeo.identify.influences import Effect, effects
+from elastogeo.identify.models import compare_models
+from elastogeo.identify.physics import consistency_of
 from elastogeo.identify.preference import retaining_order
+from elastogeo.identify.result import Identification, Level, Local, Parameter, Pattern, Trace
 from elastogeo.identify.systems import RunSystem, Systems, merged, noise_of, run_systems, same_force
 from elastogeo.identify.verdict import (
-    Check,
     above_resolution,
     conditioned,
     forces_distinct,
+    geometry_constant,
     identifiable,
+    model_adequate,
     residuals_unstructured,
+    separated,
+    uncertainty_by_run,
 )
-from elastogeo.machine import Array
 from elastogeo.observe import MachineTest, Question
-from elastogeo.sources import select_sources
+from elastogeo.sources import Source, select_sources
 
-
-@dataclass(frozen=True, slots=True)
-class Parameter:
-    """An identified parameter.
-
-    Attributes
-    ----------
-    name, unit, meaning : str
-    value, standard_uncertainty : float
-        In `unit`.
-    interval : tuple of 2 float
-        95 % coverage interval.
-    stands_for : dict of str to float
-        The exact combination that it represents: coefficient by name, itself first.
-    peak_to_peak : float [mm]
-        Of its part of the trace at the highest force, with the sign of the value.
-    share : float
-        Of the sum of all absolute peak-to-peak parts, 0 to 1.
-    """
-
-    name: str
-    unit: str
-    meaning: str
-    value: float
-    standard_uncertainty: float
-    interval: tuple[float, float]
-    stands_for: dict[str, float]
-    peak_to_peak: float
-    share: float
-
-
-@dataclass(frozen=True, slots=True)
-class Trace:
-    """Measured and predicted readings of one run, reference taken off if one was.
-
-    Attributes
-    ----------
-    run : str
-    force : float [N]
-    pose : array, shape (m,) [rad or mm]
-        What the run file counts along: the angle of a ball bar.
-    measured, predicted : array, shape (m,) [mm]
-    """
-
-    run: str
-    force: float
-    pose: Array
-    measured: Array
-    predicted: Array
-
-
-@dataclass(frozen=True, slots=True)
-class Level:
-    """Fit at one force level.
-
-    Attributes
-    ----------
-    force : float [N]
-    readings : int
-    rmse : float [mm]
-        Eq. 5.40.
-    fitness : float [%]
-        Eq. 5.41.
-    """
-
-    force: float
-    readings: int
-    rmse: float
-    fitness: float
-
-
-@dataclass(frozen=True, slots=True)
-class Local:
-    """A local estimate from a few force levels (Eq. 4.29).
-
-    Attributes
-    ----------
-    forces : tuple of float [N]
-    solution : Solution
-    """
-
-    forces: tuple[float, ...]
-    solution: Solution
-
-
-@dataclass(frozen=True, slots=True)
-class Pattern:
-    """The response of a reading to parameters that cannot be told apart (Table 4.4).
-
-    Attributes
-    ----------
-    names : tuple of str
-    pose : array, shape (m,)
-    response : array, shape (m,)
-        Scaled to a greatest absolute value of 1.
-    """
-
-    names: tuple[str, ...]
-    pose: Array
-    response: Array
-
-
-@dataclass(frozen=True, slots=True)
-class Identification:
-    """All that one test says.
-
-    Attributes
-    ----------
-    test : MachineTest
-        As it was given.
-    reference_force : float or None [N]
-        Force level that was taken off.
-    parameters : tuple of Parameter
-        The retained set.
-    confounding : Confounding
-    solution : Solution
-        Global estimate of the retained set (Eq. 4.28).
-    minimum_norm : dict of str to float
-        Minimum-norm solution over all parameters that were asked for.
-    traces : tuple of Trace
-    levels : tuple of Level
-    local : tuple of Local
-        From adjacent force levels.
-    repeats : Repeatability or None
-        From the levels that were repeated, if at least two were.
-    patterns : tuple of Pattern
-    rmse : float [mm]
-        Over all readings.
-    verdict : tuple of Check
-    """
-
-    test: MachineTest
-    reference_force: float | None
-    parameters: tuple[Parameter, ...]
-    confounding: Confounding
-    solution: Solution
-    minimum_norm: dict[str, float]
-    traces: tuple[Trace, ...]
-    levels: tuple[Level, ...]
-    local: tuple[Local, ...]
-    repeats: Repeatability | None
-    patterns: tuple[Pattern, ...]
-    rmse: float
-    verdict: tuple[Check, ...]
+LEVELS_FOR_MODELS = 3
+"""How many force levels it takes to say more of a compliance than that it is constant."""
 
 
 def identify(test: MachineTest) -> Identification:
@@ -190,41 +67,76 @@ def identify(test: MachineTest) -> Identification:
     """
     systems = systems_of(test)
     found = confounding_of(test, systems)
-    solution = solve(merged(systems.runs), found.retained, noise_of(systems.runs, systems.references))
+    return _assessed(_identified(test, systems, found), systems)
+
+
+def _identified(test: MachineTest, systems: Systems, found: Confounding) -> Identification:
+    """The estimate and its uncertainty, not yet held against models and physics."""
+    naive = solve(merged(systems.runs), found.retained, noise_of(systems.runs, systems.references))
+    solution = _by_run(systems, found) or naive
+    budget = uncertainty_budget(systems, solution, effects_of(test, systems))
     traces = tuple(_trace(test, run, solution) for run in systems.runs)
-    parameters = _parameters(systems, found, solution)
-    overall = rmse(np.concatenate([t.predicted for t in traces]), np.concatenate([t.measured for t in traces]))
     return Identification(
         test=test,
         reference_force=test.question.reference_force,
-        parameters=parameters,
+        parameters=_parameters(systems, found, solution, budget),
         confounding=found,
         solution=solution,
+        naive=naive,
+        by_run=solution is not naive,
+        budget=budget,
+        local_change=_local_change(systems, found.retained),
         minimum_norm=dict(zip(found.labels, map(float, minimum_norm(merged(systems.runs))), strict=True)),
         traces=traces,
-        levels=tuple(_level(force, traces) for force in systems.levels),
+        levels=tuple(_level(force, systems, traces, solution) for force in systems.levels),
         local=local_estimates(systems, found.retained, adjacent(systems.levels)),
         repeats=_repeats(systems, found.retained),
         patterns=_patterns(test, systems, found),
-        rmse=overall,
-        verdict=(
-            identifiable(found),
-            forces_distinct(systems.applied),
-            conditioned(found),
-            residuals_unstructured({t.run: strongest_harmonic(t.measured - t.predicted, t.pose) for t in traces}, overall),
-            above_resolution({p.name: abs(p.peak_to_peak) for p in parameters}, test.resolution),
-        ),
+        rmse=rmse(np.concatenate([t.predicted for t in traces]), np.concatenate([t.measured for t in traces])),
+        verdict=(),
     )
 
 
+def _assessed(result: Identification, systems: Systems) -> Identification:
+    """The result with its verdict, and with what models and physics say where they can."""
+    parameters, geometric = result.parameters, [p.name for p in result.parameters if not p.elastic]
+    elastic = any(p.elastic for p in parameters) and all(p.separated for p in parameters)
+    if elastic and not systems.references and len(systems.levels) >= LEVELS_FOR_MODELS:
+        result = replace(result, models=compare_models(result.test.machine, systems, result.confounding.retained))
+    if elastic:
+        result = replace(result, consistency=consistency_of(result))
+    harmonics = {t.run: strongest_harmonic(t.measured - t.predicted, t.pose) for t in result.traces}
+    both = len({source.elastic for source in systems.sources}) == 2
+    verdict = (
+        identifiable(result.confounding),
+        forces_distinct(systems.applied),
+        separated(parameters) if both else None,
+        conditioned(result.confounding),
+        residuals_unstructured(harmonics, result.rmse, result.by_run),
+        uncertainty_by_run(result.by_run, len(systems.runs), bool(systems.references)),
+        above_resolution({p.name: abs(p.peak_to_peak) for p in parameters}, result.test.resolution),
+        geometry_constant(result.local_change, geometric) if result.local_change and geometric else None,
+        model_adequate(result.models) if result.models else None,
+        result.consistency.check if result.consistency else None,
+    )
+    return replace(result, verdict=tuple(check for check in verdict if check is not None))
+
+
 def with_question(
-    test: MachineTest, parameters: Sequence[str] | None = None, prefer: Sequence[str] | None = None
+    test: MachineTest,
+    parameters: Sequence[str] | None = None,
+    prefer: Sequence[str] | None = None,
+    reference_force: float | None = None,
 ) -> MachineTest:
-    """The test with another question: other parameters, other preferences, or its own where none are given."""
+    """The test with another question: other parameters, preferences or reference, or its own where none are given.
+
+    A reference force that is not a number (NaN) means that no level is taken off.
+    """
     question = test.question
+    reference = question.reference_force if reference_force is None else reference_force
     asked = Question(
         parameters=tuple(parameters) if parameters else question.parameters,
-        reference_force=question.reference_force,
+        reference_force=None if reference is not None and isnan(reference) else reference,
         prefer=tuple(prefer) if prefer else question.prefer,
     )
     return replace(test, question=asked)
@@ -244,6 +156,22 @@ def confounding_of(test: MachineTest, systems: Systems) -> Confounding:
     return confounding(merged(systems.runs), order, kinds=[source.unit for source in systems.sources])
 
 
+def effects_of(test: MachineTest, systems: Systems) -> tuple[Effect, ...]:
+    """The effects of the systematic influences that a test states.
+
+    Raises
+    ------
+    UnsupportedError
+        If a reference level is taken off: the influences would enter reference and level alike.
+    """
+    if test.influences and systems.references:
+        raise UnsupportedError(
+            "systematic influences are propagated through the model without a reference level; "
+            "leave reference_force out and ask for geometry and compliance together (elasto-geometric-xy)"
+        )
+    return effects(test, systems)
+
+
 def adjacent(levels: Sequence[float]) -> tuple[tuple[float, ...], ...]:
     """Pairs of neighbouring force levels [N]."""
     return tuple(pairwise(levels))
@@ -251,6 +179,8 @@ def adjacent(levels: Sequence[float]) -> tuple[tuple[float, ...], ...]:
 
 def local_estimates(systems: Systems, retained: Sequence[str], choices: Sequence[Sequence[float]]) -> tuple[Local, ...]:
     """Estimates of the retained parameters from some force levels at a time (Eq. 4.29).
+
+    Few levels have too few runs for an uncertainty by run; it comes from the scatter between all runs of the test.
 
     Parameters
     ----------
@@ -266,70 +196,122 @@ def local_estimates(systems: Systems, retained: Sequence[str], choices: Sequence
     RankError
         If the chosen levels do not determine the parameters.
     """
-    chosen = [systems.at(*levels) for levels in choices]
-    return tuple(
-        Local(tuple(levels), solve(merged(runs), retained, noise_of(runs, systems.references)))
-        for levels, runs in zip(choices, chosen, strict=True)
-    )
+    strongest = _strongest(systems)
+    dispersion = _dispersion(systems, retained)
+    found = []
+    for levels in choices:
+        runs = systems.at(*levels)
+        solution = solve(merged(runs), retained, noise_of(runs, systems.references))
+        if dispersion is not None:
+            variance, freedom = dispersion
+            covariance = solution.covariance * (variance / solution.residual_std**2)
+            solution = replace(solution, covariance=covariance, degrees_of_freedom=np.full(len(retained), freedom))
+        spans = np.ptp(strongest.design_of(retained), axis=0) * solution.values
+        found.append(Local(tuple(levels), solution, dict(zip(retained, map(float, spans), strict=True))))
+    return tuple(found)
+
+
+def _by_run(systems: Systems, found: Confounding) -> Solution | None:
+    """The solution with its uncertainty by run; None where a reference is taken off or the runs are too few."""
+    if systems.references or len(systems.runs) < 2:
+        return None
+    try:
+        return solve_by_run([run.factor for run in systems.runs], found.retained)
+    except DegreesOfFreedomError:
+        return None
+
+
+def _dispersion(systems: Systems, retained: Sequence[str]) -> tuple[float, float] | None:
+    """Variance of a reading as the scatter between runs shows it; None where it cannot be had."""
+    if systems.references:
+        return None
+    try:
+        return run_dispersion([run.factor for run in systems.runs], retained)
+    except (DegreesOfFreedomError, RankError):
+        return None
+
+
+def _local_change(systems: Systems, retained: Sequence[str]) -> Change | None:
+    """Whether local estimates differ; None where that cannot be said."""
+    choices = [[k for k, run in enumerate(systems.runs) if run in systems.at(*pair)] for pair in adjacent(systems.levels)]
+    if systems.references or len(choices) < 2:
+        return None
+    try:
+        return local_change([run.factor for run in systems.runs], retained, choices)
+    except (DegreesOfFreedomError, RankError):
+        return None
+
+
+def _strongest(systems: Systems) -> RunSystem:
+    return max(systems.runs, key=lambda run: abs(run.force))
 
 
 def _trace(test: MachineTest, run: RunSystem, solution: Solution) -> Trace:
-    columns = [run.factor.labels.index(label) for label in solution.labels]
-    predicted = run.design[:, columns] @ solution.values
-    return Trace(run.observations.run, run.force, _pose(test, run), run.reading, predicted)
+    return Trace(run.name, run.force, test.pose(run.name), run.reading, run.design_of(solution.labels) @ solution.values)
 
 
-def _pose(test: MachineTest, run: RunSystem) -> Array:
-    """What the run file counts along, shape (m,)."""
-    return next(r.columns[test.setup.quantities[0]] for r in test.runs if r.name == run.observations.run)
-
-
-def _level(force: float, traces: Sequence[Trace]) -> Level:
+def _level(force: float, systems: Systems, traces: Sequence[Trace], solution: Solution) -> Level:
     chosen = [trace for trace in traces if same_force(trace.force, force)]
     measured = np.concatenate([trace.measured for trace in chosen])
     predicted = np.concatenate([trace.predicted for trace in chosen])
-    return Level(force, len(measured), rmse(predicted, measured), fitness(predicted, measured))
-
-
-def _parameters(systems: Systems, found: Confounding, solution: Solution) -> tuple[Parameter, ...]:
-    strongest = max(systems.runs, key=lambda run: abs(run.force))
+    run = systems.at(force)[0]
     by_name = {source.name: source for source in systems.sources}
-    spans = {
-        name: float(np.ptp(strongest.design[:, found.labels.index(name)]) * value)
-        for name, value in zip(solution.labels, solution.values, strict=True)
-    }
-    total = sum(map(abs, spans.values())) or 1.0
+    machine_parts = [by_name[label] for label in solution.labels if by_name[label].site[1]]
+    return Level(
+        force=force,
+        readings=len(measured),
+        rmse=rmse(predicted, measured),
+        fitness=fitness(predicted, measured),
+        elastic=_span_of(run, solution, [source for source in machine_parts if source.elastic]),
+        geometric=_span_of(run, solution, [source for source in machine_parts if not source.elastic]),
+    )
+
+
+def _span_of(run: RunSystem, solution: Solution, sources: Sequence[Source]) -> tuple[float, float]:
+    """Least and greatest deviation that some of the parameters cause together."""
+    names = [source.name for source in sources]
+    values = [solution.values[solution.labels.index(name)] for name in names]
+    part = run.design_of(names) @ np.array(values) if names else np.zeros(1)
+    return float(part.min()), float(part.max())
+
+
+def _parameters(systems: Systems, found: Confounding, solution: Solution, budget: Budget) -> tuple[Parameter, ...]:
+    by_name = {source.name: source for source in systems.sources}
+    spans = np.ptp(_strongest(systems).design_of(solution.labels), axis=0) * solution.values
+    total = float(np.abs(spans).sum()) or 1.0
     return tuple(
         Parameter(
             name=name,
             unit=by_name[name].unit,
             meaning=by_name[name].meaning,
-            value=float(value),
-            standard_uncertainty=float(uncertainty),
-            interval=(float(low), float(high)),
+            value=float(solution.values[k]),
+            standard_uncertainty=float(budget.standard_uncertainty[k]),
+            interval=(float(budget.interval[k, 0]), float(budget.interval[k, 1])),
             stands_for=found.stands_for(name),
-            peak_to_peak=spans[name],
-            share=abs(spans[name]) / total,
+            peak_to_peak=float(spans[k]),
+            share=float(abs(spans[k])) / total,
+            axis=by_name[name].site[1],
+            elastic=by_name[name].elastic,
+            separated=len({by_name[other].elastic for other in found.stands_for(name)}) == 1,
         )
-        for name, value, uncertainty, (low, high) in zip(
-            solution.labels, solution.values, solution.standard_uncertainty, solution.interval(), strict=True
-        )
+        for k, name in enumerate(solution.labels)
     )
 
 
 def _repeats(systems: Systems, retained: Sequence[str]) -> Repeatability | None:
-    """Run-level uncertainty from the levels that were repeated."""
-    if systems.references > 1:
-        return None
+    """Run-level uncertainty from the levels that were repeated, if they determine the parameters."""
     levels = {f"{force:g} N": [run.factor for run in systems.at(force)] for force in systems.levels}
     repeated = {name: runs for name, runs in levels.items() if len(runs) > 1}
-    return repeatability(repeated, retained) if repeated else None
+    try:
+        return repeatability(repeated, retained) if repeated else None
+    except RankError:
+        return None
 
 
 def _patterns(test: MachineTest, systems: Systems, found: Confounding) -> tuple[Pattern, ...]:
-    strongest = max(systems.runs, key=lambda run: abs(run.force))
-    pose = _pose(test, strongest)
-    responses = {group: strongest.design[:, found.labels.index(group[0])] for group in found.groups}
+    strongest = _strongest(systems)
+    responses = {group: strongest.design_of([group[0]])[:, 0] for group in found.groups}
+    pose = test.pose(strongest.name)
     return tuple(
         Pattern(group, pose, response / np.abs(response).max()) for group, response in responses.items() if response.any()
     )

@@ -20,7 +20,7 @@ SAME_FORCE = 0.5
 """Forces [N] that differ by less are the same level."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class RunSystem:
     """The linear system of one run.
 
@@ -40,6 +40,15 @@ class RunSystem:
     force: float
     rows: Array
     factor: Factor
+
+    @property
+    def name(self) -> str:
+        """Name of the run."""
+        return self.observations.run
+
+    def design_of(self, labels: Sequence[str]) -> Array:
+        """Columns of the design for these parameters, shape (m, len(labels))."""
+        return self.rows[:, [self.factor.labels.index(label) for label in labels]]
 
     @property
     def reading(self) -> Array:

@@ -4,9 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from elastogeo.estimate import Confounding
 from elastogeo.identify.fit import Harmonic
+
+if TYPE_CHECKING:
+    from elastogeo.identify.change import Change
+    from elastogeo.identify.models import Comparison
+    from elastogeo.identify.result import Parameter
+
+SIGNIFICANT = 0.05
 
 CONDITION_LIMIT = 30.0
 """Scaled condition number above which estimates are strongly coupled (Belsley, Kuh and Welsch, 1980)."""
@@ -16,11 +24,12 @@ UM = 1000.0
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One check of the verdict."""
+    """One check of the verdict; if a decisive one fails, the data do not support what was asked."""
 
     name: str
     passed: bool
     sentence: str
+    decisive: bool = False
 
 
 def identifiable(found: Confounding) -> Check:
@@ -62,7 +71,68 @@ def forces_distinct(levels: Sequence[float]) -> Check:
     )
 
 
-def residuals_unstructured(harmonics: Mapping[str, Harmonic], rmse: float) -> Check:
+def separated(parameters: Sequence[Parameter]) -> Check:
+    """Whether compliance and geometry are told apart."""
+    mixed = [parameter for parameter in parameters if not parameter.separated]
+    if not mixed:
+        return Check("separated", True, "Compliance and geometry are told apart: no combination mixes the two.")
+    sums = "; ".join(" with ".join(parameter.stands_for) for parameter in mixed)
+    return Check(
+        "separated",
+        False,
+        f"Compliance and geometry cannot be told apart in {len(mixed)} of {len(parameters)} combinations ({sums}): the test "
+        f"has too few distinct forces. Only the sums are determined, and none of their members may be named the cause. "
+        f"Measure at two forces at least.",
+        decisive=True,
+    )
+
+
+def uncertainty_by_run(by_run: bool, runs: int, reference: bool) -> Check:
+    """Whether the uncertainties count on independent runs."""
+    if by_run:
+        return Check("uncertainty by run", True, f"The uncertainties come from the scatter of {runs} runs, not of readings.")
+    why = "a reference level is taken off" if reference else f"{runs} run{'s are' if runs > 1 else ' is'} too few"
+    return Check(
+        "uncertainty by run",
+        False,
+        f"The uncertainties count on independent readings, because {why}. Readings along a trace rarely are: repeat the runs"
+        f"{' and ask without a reference level' if reference else ''}.",
+    )
+
+
+def geometry_constant(change: Change, geometric: Sequence[str]) -> Check:
+    """Whether the geometry that adjacent force levels give is the same at all forces."""
+    moved = [name for name in geometric if change.each[name] < SIGNIFICANT / len(geometric)]
+    if not moved:
+        return Check(
+            "geometry constant",
+            True,
+            "The geometry estimated from adjacent force levels does not change by more than its uncertainty.",
+        )
+    return Check(
+        "geometry constant",
+        False,
+        f"{', '.join(moved)} seems to change with the force by more than the uncertainty (p = "
+        f"{min(change.each[name] for name in moved):.2g}): the compliance model is too simple; compare models.",
+    )
+
+
+def model_adequate(models: Comparison) -> Check:
+    """Whether the constant compliance is what the data support."""
+    constant = models.models[0]
+    if models.supported == constant.name:
+        return Check("model adequate", True, "A constant compliance predicts left-out levels as well as any richer model.")
+    better = next(model for model in models.models if model.name == models.supported)
+    exponent = f" (exponent {better.exponent:.2f})" if better.exponent else ""
+    return Check(
+        "model adequate",
+        False,
+        f"The data support a {better.name} compliance{exponent}: it predicts left-out force levels to "
+        f"{(better.left_out_level or 0) * UM:.3g} um, a constant one to {(constant.left_out_level or 0) * UM:.3g} um.",
+    )
+
+
+def residuals_unstructured(harmonics: Mapping[str, Harmonic], rmse: float, by_run: bool) -> Check:
     """Whether the residuals of every run are noise."""
     left = {run: harmonic for run, harmonic in harmonics.items() if harmonic.significant}
     if not left:
@@ -72,8 +142,9 @@ def residuals_unstructured(harmonics: Mapping[str, Harmonic], rmse: float) -> Ch
         "residuals without structure",
         False,
         f"A harmonic of order {worst.order} with an amplitude of {worst.amplitude * UM:.3g} um is left in run {run} "
-        f"({len(left)} of {len(harmonics)} runs have one; RMSE {rmse * UM:.3g} um): the model does not explain it, and the "
-        f"stated uncertainties, which count on independent residuals, do not cover it.",
+        f"({len(left)} of {len(harmonics)} runs have one; RMSE {rmse * UM:.3g} um): the model does not explain it. "
+        + ("What of it is the same in all runs" if by_run else "It")
+        + " is not covered by the stated uncertainties.",
     )
 
 

@@ -27,8 +27,8 @@ class Motion:
     ----------
     displacement : array, shape (m, 3) [mm]
         From the centre of the path (the workpiece ball) to the tool.
-    rate : array, shape (m, 3) [mm/s]
-        Its time derivative.
+    rate, acceleration : array, shape (m, 3) [mm/s, mm/s^2]
+        Its time derivatives.
     rotary : mapping of str to array, shape (m,) [rad]
         Commands of the rotary axes that move along the path; the others stay at the centre pose.
     rotary_rate : mapping of str to float [rad/s]
@@ -39,6 +39,7 @@ class Motion:
 
     displacement: Array
     rate: Array
+    acceleration: Array
     rotary: Mapping[str, Array]
     rotary_rate: Mapping[str, float]
     in_workpiece: bool = False
@@ -54,6 +55,8 @@ class Commands:
         In the order of `machine.axes`.
     velocity : array, shape (m, n) [mm/s, rad/s]
         Their time derivatives.
+    acceleration : array, shape (m, n) [mm/s^2], or None
+        Of the linear axes; None where a rotary axis turns along the path.
     displacement : array, shape (m, 3) [mm]
         From the workpiece ball to the tool, in the foundation.
     ball : array, shape (3,) [mm]
@@ -62,6 +65,7 @@ class Commands:
 
     position: Array
     velocity: Array
+    acceleration: Array | None
     displacement: Array
     ball: Array
 
@@ -117,15 +121,22 @@ def follow(machine: Machine, centre: Mapping[str, float], motion: Motion, tool: 
         rate = rate + _turning_rate(machine, position, ball, tool, motion, target)
         for axis, speed in motion.rotary_rate.items():
             velocity[:, machine.index(axis)] = speed
-    rates = _applied(inverse, rate)
-    for k, axis in enumerate(linear):
-        velocity[:, machine.index(axis)] = rates[:, k]
-    return Commands(position, velocity, target, ball)
+    _put(velocity, machine, linear, _applied(inverse, rate))
+    acceleration = None
+    if not motion.rotary:
+        acceleration = np.zeros_like(position)
+        _put(acceleration, machine, linear, _applied(inverse, motion.acceleration))
+    return Commands(position, velocity, acceleration, target, ball)
 
 
 def workpiece_ball(machine: Machine, centre: Mapping[str, float], tool: Array | None = None) -> Array:
     """Where the workpiece ball sits in the workpiece frame, shape (3,) [mm]: where the tool is at the centre pose."""
     return _ball(_at_centre(machine, centre, tool))
+
+
+def _put(columns: Array, machine: Machine, linear: list[str], values: Array) -> None:
+    for k, axis in enumerate(linear):
+        columns[:, machine.index(axis)] = values[:, k]
 
 
 def _at_centre(machine: Machine, centre: Mapping[str, float], tool: Array | None) -> LoopFrames:

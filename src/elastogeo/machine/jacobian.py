@@ -39,25 +39,18 @@ def carried_to(frame: Frame, point: Array, v: Array, side: float = 1.0) -> Array
     -----
     Eq. 4.5 of the thesis, `W_joint = J^T W_t`, for both branches: the reaction of the wrench acts on the workpiece.
     """
-    force, moment = v[:, :3], v[:, 3:]
-    lever = point - frame.origin
-    if lever.any():
-        moment = moment + _crossed(lever, force)
+    force, moment = frame.components(v[:, :3]), frame.components(v[:, 3:])
+    lever = frame.components(point - frame.origin)
     carried = np.empty((len(v), 6), order="F")
-    carried[:, :3] = frame.components(force)
-    carried[:, 3:] = frame.components(moment)
+    carried[:, :3] = force
+    carried[:, 3:] = moment
+    if lever.any():
+        for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
+            carried[:, 3 + i] += lever[:, j] * force[:, k]
+            carried[:, 3 + i] -= lever[:, k] * force[:, j]
     if side < 0:
         np.negative(carried, out=carried)
     return carried
-
-
-def _crossed(lever: Array, force: Array) -> Array:
-    """`lever x force`, shape (m, 3), Fortran order; five times as fast as `np.cross`."""
-    moment = np.empty(force.shape, order="F")
-    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
-        np.multiply(lever[:, j], force[:, k], out=moment[:, i])
-        moment[:, i] -= lever[:, k] * force[:, j]
-    return moment
 
 
 def jacobian(machine: Machine, commands: Array, tool: Array | None = None) -> Array:

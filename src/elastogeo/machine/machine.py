@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from math import inf, isfinite
 
 from elastogeo.errors import MachineError
-from elastogeo.machine.quantity import Point, RotationVector, Travel
+from elastogeo.machine.quantity import Pitch, Point, RotationVector, Travel
 from elastogeo.machine.topology import AXIS_ORDER, LINEAR, ROTARY, SPINDLE, Topology
 
 _ZERO = (0.0, 0.0, 0.0)
@@ -26,6 +26,8 @@ class Joint:
         Rotation vector of the location frame in the frame of the link before it: zero unless the axis is inclined.
     travel : tuple of 2 float [mm or rad]
         Least and greatest command.
+    pitch : float or None [mm or rad]
+        Command per turn of its screw, or per period of its scale, if cyclic errors are to be modelled.
     compliant : bool
         Whether the joint's compliance is modelled. False by default for the spindle alone: what lies behind the last
         axis then counts as rigid.
@@ -35,6 +37,7 @@ class Joint:
     offset: Point = _ZERO
     tilt: RotationVector = _ZERO
     travel: Travel = (-inf, inf)
+    pitch: Pitch = None
     compliant: bool = True
 
     @property
@@ -123,6 +126,10 @@ def check_machine(machine: Machine) -> None:
     for joint in machine.joints:
         if not all(map(isfinite, (*joint.offset, *joint.tilt))):
             raise MachineError(f"machine {machine.name!r}, axis {joint.name}: offset and tilt must be finite numbers")
+        if joint.pitch is not None and not joint.pitch > 0:
+            raise MachineError(
+                f"machine {machine.name!r}, axis {joint.name}: the pitch is {joint.pitch:g}, it must be positive"
+            )
         low, high = joint.travel
         if not low < high:
             raise MachineError(f"machine {machine.name!r}, axis {joint.name}: travel {low:g} to {high:g} is empty")

@@ -6,7 +6,7 @@ from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_
 from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
 from elastogeo.observe.observations import Observations, check_observations
-from elastogeo.observe.trial import MachineTest, Question, Run, Setup
+from elastogeo.observe.trial import KnownInfluence, MachineTest, Question, Run, Setup
 
 __all__ = [
     "PLANES",
@@ -14,6 +14,7 @@ __all__ = [
     "Calibration",
     "Circle",
     "Imperfection",
+    "KnownInfluence",
     "LoadedBallBar",
     "MachineTest",
     "Observations",

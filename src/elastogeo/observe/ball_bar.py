@@ -54,7 +54,7 @@ class LoadedBallBar:
         Raises
         ------
         InputError
-            If the run lacks a column or a force, or has a value that is no finite number.
+            If the run lacks a column, a force or readings, or has a value that is no finite number.
         """
         angle = self._angle(run)
         tool = None if self.tool is None else np.array(self.tool)
@@ -63,14 +63,18 @@ class LoadedBallBar:
         force = self.force(run)
         direction = np.zeros((len(angle), 6), order="F")
         np.divide(commands.displacement, self.circle.radius, out=direction[:, :3])
+        correction = self.deflection(run, direction)
         observations = Observations(
             run=run.name,
             force=force,
             commands=commands.position,
             velocity=commands.velocity,
+            acceleration=commands.acceleration,
+            centre=np.array([self.circle.centre.get(axis, 0.0) for axis in machine.axes]),
             direction=direction,
             wrench=force * direction,
-            reading=run.columns["radial"] - self.deflection(run, direction),
+            reading=run.columns["radial"] - correction,
+            correction=correction,
             tool=np.array(machine.tool) if tool is None else tool,
             workpiece=commands.ball,
             length=self.circle.radius,
@@ -91,7 +95,7 @@ class LoadedBallBar:
             raise InputError(f"run {run.name!r} has neither a force nor a pressure; give force_N or pressure_bar")
         return force_from_pressure(run.pressure, self.calibration)
 
-    def deflection(self, run: Run, direction: Array) -> Array | float:
+    def deflection(self, run: Run, direction: Array) -> Array:
         """Deflection [mm] of the workpiece ball's post in a run, which the reading holds and the machine does not.
 
         Eq. 5.38: `delta = P 2.33 cos^2(elevation)`, with the elevation of the bar over the horizontal plane.
@@ -102,7 +106,7 @@ class LoadedBallBar:
             If the correction is on and the run has no pressure.
         """
         if not self.setup_deflection:
-            return 0.0
+            return np.zeros(len(direction))
         if run.pressure is None:
             raise InputError(f"run {run.name!r} has no pressure, which the set-up deflection correction (Eq. 5.38) needs")
         return np.asarray(self.setup_deflection * run.pressure * (1.0 - direction[:, 2] ** 2))
@@ -113,4 +117,9 @@ class LoadedBallBar:
             raise InputError(
                 f"run {run.name!r} lacks the column {', '.join(missing)}; a loaded ball bar needs angle_deg, radial_um"
             )
+        angles, readings = (len(run.columns[name]) for name in self.quantities)
+        if angles != readings:
+            raise InputError(f"run {run.name!r} has {angles} angles and {readings} readings; every reading needs its angle")
+        if not readings:
+            raise InputError(f"run {run.name!r} has no reading")
         return np.asarray(run.columns["angle"])

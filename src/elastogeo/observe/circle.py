@@ -61,9 +61,11 @@ class Circle:
         bar = self.bar_start + self.bar_turn * angle
         cosine, sine = self.radius * np.cos(bar), self.radius * np.sin(bar)
         speed = self.bar_turn * rate
+        displacement = _combined(cosine, first, sine, second)
         return Motion(
-            displacement=_combined(cosine, first, sine, second),
+            displacement=displacement,
             rate=_combined(cosine, speed * second, sine, -speed * first),
+            acceleration=-(speed**2) * displacement,
             rotary={a: self.centre.get(a, 0.0) + turn * angle for a, turn in self.rotary_turn.items()},
             rotary_rate={axis: turn * rate for axis, turn in self.rotary_turn.items()},
             in_workpiece=self.in_workpiece,

@@ -30,11 +30,18 @@ class Observations:
         Axis commands, in the order of the machine's axes.
     velocity : array, shape (m, n) [mm/s, rad/s]
         Their time derivatives.
+    acceleration : array, shape (m, n) [mm/s^2], or None
+        Of the linear axes; None where it is not known.
+    centre : array, shape (n,) [mm, rad]
+        Axis commands at the centre of the test, about which polynomials of the commands are taken.
     direction : array, shape (m, 6)
         Sensitive direction: a unit twist (translation, rotation).
     wrench : array, shape (m, 6) [N, N mm]
         Wrench on the tool at the functional point; its reaction acts on the workpiece.
     reading : array, shape (m,) [mm or rad]
+        With `correction` taken off.
+    correction : array, shape (m,) [mm or rad]
+        What the set-up adds to the recorded reading and was taken off.
     tool : array, shape (3,) [mm]
         Functional point in the frame of the last tool-branch carriage.
     workpiece : array, shape (3,) [mm]
@@ -48,9 +55,12 @@ class Observations:
     force: float
     commands: Array
     velocity: Array
+    acceleration: Array | None
+    centre: Array
     direction: Array
     wrench: Array
     reading: Array
+    correction: Array
     tool: Array
     workpiece: Array
     length: float = float("inf")
@@ -70,9 +80,11 @@ class Observations:
             self,
             commands=self.commands[part],
             velocity=self.velocity[part],
+            acceleration=None if self.acceleration is None else self.acceleration[part],
             direction=self.direction[part],
             wrench=self.wrench[part],
             reading=self.reading[part],
+            correction=self.correction[part],
         )
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import inf
 from typing import Protocol
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, Machine, OptionalForce, OptionalPressure
+from elastogeo.machine import Array, Machine, OptionalForce, OptionalLength, OptionalPressure
 from elastogeo.observe.observations import Observations
 
 
@@ -73,6 +74,35 @@ class Question:
 
 
 @dataclass(frozen=True, slots=True)
+class KnownInfluence:
+    """What is known of a systematic influence on a test.
+
+    Attributes
+    ----------
+    kind : str
+        `force-scale`, `bar-length`, `ball-form`, ...: see `elastogeo.identify.influences`.
+    label : str
+        Where the knowledge comes from, in words.
+    relative : float or None
+        Its size, for a kind that has a relative one.
+    length : float or None [mm]
+    force : float or None [N]
+    distribution : str
+        `normal` (the size is a standard uncertainty), `rectangular`, `triangular` or `arcsine` (it is the half-width).
+    degrees_of_freedom : float
+        Of the size.
+    """
+
+    kind: str
+    label: str = ""
+    relative: float | None = None
+    length: OptionalLength = None
+    force: OptionalForce = None
+    distribution: str = "normal"
+    degrees_of_freedom: float = inf
+
+
+@dataclass(frozen=True, slots=True)
 class MachineTest:
     """A test as a whole.
 
@@ -86,6 +116,8 @@ class MachineTest:
     question : Question
     resolution : float or None [mm]
         Of the readings.
+    influences : tuple of KnownInfluence
+        Systematic influences on the readings.
     simulated : str
         From what the readings are simulated, in words; empty if they were measured.
     """
@@ -96,6 +128,7 @@ class MachineTest:
     runs: tuple[Run, ...]
     question: Question = field(default_factory=Question)
     resolution: float | None = None
+    influences: tuple[KnownInfluence, ...] = ()
     simulated: str = ""
 
     def __post_init__(self) -> None:
@@ -106,6 +139,10 @@ class MachineTest:
             raise InputError(f"test {self.name!r} names the run {twice[0]!r} twice; every run needs a name of its own")
         if not names:
             raise InputError(f"test {self.name!r} has no run")
+
+    def pose(self, run: str) -> Array:
+        """What the file of a run counts along, shape (m,): the angle of a ball bar [rad]."""
+        return next(r.columns[self.setup.quantities[0]] for r in self.runs if r.name == run)
 
     def observations(self) -> tuple[Observations, ...]:
         """The observations of every run, in order."""

@@ -2,34 +2,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
+from functools import cache
+from types import MappingProxyType
 
 from elastogeo.errors import SelectionError
 from elastogeo.machine import Machine
-from elastogeo.sources.families import families
+from elastogeo.sources.families import families, source_named
 from elastogeo.sources.source import Source
 
 _PLANES = {"xy": ("XYC", "XY"), "yz": ("YZA", "YZ"), "zx": ("ZXB", "ZX")}
 
+
+def _planar(parts: str, axes: str) -> tuple[str, ...]:
+    """Compliances that act in one plane (Eq. 4.14)."""
+    return tuple(f"C_[{parts}][{parts}]{axis}" for axis in sorted(axes))
+
+
+def _ball_bar(parts: str, axes: str) -> tuple[str, ...]:
+    """What users of ball bar software look for in one plane."""
+    one, other, turn = axes[0], axes[1], parts[2]
+    return (
+        *(f"E_{axis}{axis}1" for axis in axes),
+        f"E_{turn}(0[XYZ])[{axes}]|E_{turn}(0){one}",
+        *(f"E_{other}{one}2", f"E_{one}{other}2"),
+        *(f"B_{d}{axis}" for axis in axes for d in axes),
+        *(f"S_{axis}{axis}" for axis in axes),
+        *(f"P_{axis}{axis}[cs]1|" for axis in axes),
+        *(f"T_{axis}1" for axis in axes),
+        *(f"E_{axis}t0" for axis in axes),
+    )
+
+
 PRESETS: dict[str, tuple[str, ...]] = {
     "compliance": ("C_*",),
-    **{
-        f"planar-{plane}": tuple(f"C_[{parts}][{parts}]{joint}" for joint in sorted(joints))
-        for plane, (parts, joints) in _PLANES.items()
-    },
+    **{f"planar-{plane}": _planar(*letters) for plane, letters in _PLANES.items()},
+    **{f"ball-bar-{plane}": _ball_bar(*letters) for plane, letters in _PLANES.items()},
     "elasto-geometric-xy": (
         *("C_XXX", "C_XYX", "C_YYY", "C_CXY", "C_CYY", "C_CCY"),
         *("E_XX1", "E_YX2", "E_XY2", "E_YY1", "E_C(0Y)X", "E_Xt0", "E_Yt0"),
     ),
+    "geometry-3-axis": ("E_[XYZABC][XYZ][12]", "E_[ABC](0*)[XYZ]"),
+    "geometry-5-axis": ("E_[XYZABC][XYZ][12]", "E_[XYZABC][ABC][cs]1", "E_?(0*)[XYZABC]"),
 }
-"""Named selections: all joint compliances; those that act in one plane (Eq. 4.14); the 13 of Table 5.1."""
+"""Named selections: all joint compliances; those of one plane; ball bar diagnosis; the 13 of Table 5.1; whole machines.
+
+In a pattern `|` separates alternatives, of which the first that selects anything counts; an empty one may select nothing.
+"""
 
 
-def catalogue(machine: Machine) -> dict[str, Source]:
-    """Every error source of a machine, by name."""
-    return {source.name: source for sources in families().values() for source in sources(machine)}
+@cache
+def catalogue(machine: Machine) -> Mapping[str, Source]:
+    """Every error source that the families list for a machine, by name."""
+    return MappingProxyType({source.name: source for sources in families().values() for source in sources(machine)})
 
 
 def select_sources(machine: Machine, patterns: Iterable[str]) -> tuple[Source, ...]:
@@ -50,15 +77,27 @@ def select_sources(machine: Machine, patterns: Iterable[str]) -> tuple[Source, .
     selected: dict[str, Source] = {}
     for pattern in patterns:
         for part in PRESETS.get(pattern, (pattern,)):
-            selected.update(_matching(known, part, machine))
+            selected.update(_first_matching(known, part, machine))
     if not selected:
         raise SelectionError("no parameter was asked for; name some, for example C_XXX, C_??X or planar-xy")
     return tuple(selected.values())
 
 
-def _matching(known: dict[str, Source], pattern: str, machine: Machine) -> dict[str, Source]:
+def _first_matching(known: Mapping[str, Source], pattern: str, machine: Machine) -> dict[str, Source]:
+    """What the first of several alternatives selects that selects anything."""
+    *first, last = pattern.split("|")
+    for alternative in first:
+        if any(fnmatchcase(name, alternative) for name in known):
+            return _matching(known, alternative, machine)
+    return _matching(known, last, machine) if last else {}
+
+
+def _matching(known: Mapping[str, Source], pattern: str, machine: Machine) -> dict[str, Source]:
     if pattern in known:
         return {pattern: known[pattern]}
+    meant = source_named(machine, pattern)
+    if meant is not None:
+        return {pattern: meant}
     matching = {name: source for name, source in known.items() if fnmatchcase(name, pattern)}
     if not matching:
         near = get_close_matches(pattern, [*known, *PRESETS], n=3)

@@ -49,4 +49,5 @@ def _compliance(joint: Joint, d: int, f: int) -> Source:
         driver=JointLoad(joint.name, f),
         meaning=f"{_WORDS[COMPONENTS[d]]} for a {load}, at joint {joint.name}",
         load=f,
+        force_degree=1.0,
     )

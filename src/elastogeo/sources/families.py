@@ -20,13 +20,27 @@ if TYPE_CHECKING:
     from elastogeo.sources.source import Source
 
 Family = Callable[["Machine"], Iterator["Source"]]
+Named = Callable[["Machine", str], "Source | None"]
 _REGISTER: dict[str, Family] = {}
+_NAMED: dict[str, Named] = {}
 
 
 def family(sources: Family) -> Family:
     """Register a function that yields the sources of a machine."""
     _REGISTER[sources.__name__] = sources
     return sources
+
+
+def named(source: Named) -> Named:
+    """Register a function that makes a source from a name that no listing holds (any degree, any exponent), or None."""
+    _NAMED[source.__name__] = source
+    return source
+
+
+def source_named(machine: Machine, name: str) -> Source | None:
+    """The source that a name means although no family lists it, or None."""
+    families()
+    return next((source for make in _NAMED.values() if (source := make(machine, name)) is not None), None)
 
 
 def families() -> dict[str, Family]:

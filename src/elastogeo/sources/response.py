@@ -12,8 +12,9 @@ from elastogeo.observe import Observations, Run, Setup
 from elastogeo.sources.situation import Situation
 from elastogeo.sources.source import Source
 
-BLOCK_READINGS = 16384
-"""Readings in a block: enough that what is done once a block does not count, few enough for the cache."""
+BLOCK_READINGS = 8192
+"""Readings in a block: enough that what is done once a block does not count, few enough that their memory is
+used again for the next block rather than given back."""
 
 
 def design_rows(sources: Sequence[Source], machine: Machine, observations: Observations) -> Array:
@@ -87,10 +88,11 @@ def exact_response(values: Mapping[Source, float], machine: Machine, observation
     none = np.zeros((1, 6))
     tool = frames.point + frames.tool.vector(twists.get(("tool", ""), none)[:, :3])
     ball = frames.workpiece.point(observations.workpiece + twists.get(("workpiece", ""), none)[:, :3])
+    at_reading = twists.get(("reading", ""), none)[:, 0]
     if np.isfinite(observations.length):
-        return np.asarray(np.linalg.norm(tool - ball, axis=1) - observations.length)
+        return np.asarray(np.linalg.norm(tool - ball, axis=1) - observations.length + at_reading)
     nominal = situation.frames.point - situation.frames.workpiece.point(observations.workpiece)
-    return np.asarray(np.einsum("mi,mi->m", observations.direction[:, :3], tool - ball - nominal))
+    return np.asarray(np.einsum("mi,mi->m", observations.direction[:, :3], tool - ball - nominal) + at_reading)
 
 
 def site_twists(values: Iterable[tuple[Source, float]], situation: Situation) -> dict[Site, Array]:

@@ -1,4 +1,8 @@
-"""Set-up errors: where the tool ball and the workpiece ball really sit (E_Xt0, E_Yt0 of Table 5.1)."""
+"""Set-up errors: where the two balls really sit (E_Xt0, E_Yt0 of Table 5.1), and how long the bar really is.
+
+On a circle in one plane a bar that is too long (`E_R0`) looks exactly like equal gains of both axes, `E_XX1 = E_YY1`: the
+confounding report says so, and only a calibrated bar can tell them apart.
+"""
 
 from __future__ import annotations
 
@@ -28,3 +32,4 @@ def setup_offsets(_: Machine) -> Iterator[Source]:
                 driver=constant,
                 meaning=f"offset of the {name} in {COMPONENTS[d].lower()}",
             )
+    yield Source("E_R0", "mm", ("reading", ""), 0, constant, "length of the bar beyond its nominal one")

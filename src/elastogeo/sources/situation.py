@@ -6,8 +6,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from elastogeo.errors import UnsupportedError
 from elastogeo.machine import Array, Frame, LoopFrames, Machine, Site, carried_to, loop_frames
 from elastogeo.observe import Observations
+
+STANDING = 1e-9
+"""A velocity this much smaller than the greatest of the run counts as none: it is rounding error at a reversal."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +37,12 @@ class Situation:
         object.__setattr__(self, "frames", loop_frames(self.machine, observations.commands, observations.tool))
 
     def sensitivity(self, site: Site) -> Array:
-        """Change of each reading per unit of each twist component at a site, shape (m, 6): `b^T J`."""
+        """Change of each reading per unit of each twist component at a site, shape (m, 6): `b^T J`.
+
+        What acts on the reading itself (the length of a bar) has one component, the first.
+        """
+        if site[0] == "reading":
+            return np.ones((len(self.observations), 1))
         return self._at("direction", site)
 
     def load(self, axis: str) -> Array:
@@ -43,6 +52,38 @@ class Situation:
     def command(self, axis: str) -> Array:
         """Commands of an axis, shape (m,) [mm or rad]."""
         return np.asarray(self.observations.commands[:, self.machine.index(axis)])
+
+    def from_centre(self, axis: str) -> Array:
+        """Commands of an axis from the centre of the test, shape (m,) [mm or rad]."""
+        return np.asarray(self.command(axis) - self.observations.centre[self.machine.index(axis)])
+
+    def velocity(self, axis: str) -> Array:
+        """Commanded velocity of an axis, shape (m,) [mm/s or rad/s]."""
+        return np.asarray(self.observations.velocity[:, self.machine.index(axis)])
+
+    def sense(self, axis: str) -> Array:
+        """Sign of the velocity of an axis, shape (m,): 0 where it stands, or turns back at this very reading."""
+        velocity = self.velocity(axis)
+        return np.where(np.abs(velocity) > STANDING * np.abs(velocity).max(), np.sign(velocity), 0.0)
+
+    def acceleration(self, axis: str) -> Array:
+        """Commanded acceleration of an axis, shape (m,) [mm/s^2].
+
+        Raises
+        ------
+        UnsupportedError
+            If it is not known: a rotary axis turns along the path.
+        """
+        if self.observations.acceleration is None:
+            raise UnsupportedError(
+                f"run {self.observations.run!r} has no accelerations, since a rotary axis turns along its path; "
+                f"ask for no parameter that an acceleration drives"
+            )
+        return np.asarray(self.observations.acceleration[:, self.machine.index(axis)])
+
+    def force(self) -> Array:
+        """Size of the force on the tool, shape (m,) [N]."""
+        return np.asarray(np.linalg.norm(self.observations.wrench[:, :3], axis=1))
 
     def _at(self, quantity: str, site: Site) -> Array:
         if (quantity, site) not in self._carried:

@@ -42,6 +42,8 @@ class Source:
         In words.
     load : int or None
         Which load component of its joint drives it, 0 to 5 for forces and moments about X Y Z; None if no load does.
+    force_degree : float
+        The power of the force with which its column grows: 1 for a compliance, 0 for geometry.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Source:
     driver: Driver
     meaning: str
     load: int | None = None
+    force_degree: float = 0.0
 
     @property
     def elastic(self) -> bool:

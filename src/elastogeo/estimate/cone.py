@@ -1,0 +1,473 @@
+"""Estimates that a physical law holds in a cone: symmetric positive semidefinite blocks, seen through what a test can see.
+
+The free estimate s of r combinations `T c` of parameters c has the covariance V. Where blocks of c are symmetric positive
+semidefinite matrices, T c lies in a convex cone K. The constrained estimate is the point of K nearest to s in the metric of
+V; the distance squared tells whether the data contradict the law (chi-bar-square: Perlman, doi:10.1214/aoms/1177697723;
+Silvapulle and Sen, Constrained Statistical Inference, 2005, chapter 3).
+
+It is solved on the polar side: the part of s outside K is the nearest point of the polar cone, which has r variables at
+most however many parameters there are, and is closed. K itself need not be: if an off-diagonal is seen and its diagonal is
+not, the diagonal may be as large as it likes and the off-diagonal is free. Such *unseen* directions of each block are found
+first and taken out of it (facial reduction: Borwein and Wolkowicz, 1981), so that what is left is well posed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from math import inf, sqrt
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.linalg import solve_triangular
+from scipy.special import chdtrc, fdtrc
+
+from elastogeo.errors import InputError, UnsupportedError
+from elastogeo.estimate.factor import Array
+
+Block = NDArray[np.int_]
+
+INSIDE = 1e-8
+"""An estimate nearer to the cone than this, in squared standard uncertainties, is inside."""
+
+_TOLERANCES = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8)
+"""Of the solver, tried in this order."""
+
+_DEPENDENT = 1e-9
+"""Unit columns nearer than this to the span of others depend on them."""
+
+_UNSEEN = 1e-7
+"""A semidefinite direction of unit trace with a smaller effect on unit columns is not seen."""
+
+_RANK = 1e-4
+"""Eigenvalues of an unseen direction smaller than this, relative to its greatest, are the solver's zero."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Block:
+    """One semidefinite block: where its entries are among the parameters, and what scales its components.
+
+    Attributes
+    ----------
+    index : array of int, shape (k, k)
+    scale : array, shape (k,)
+        Makes the effect of every diagonal of unit size, whatever the units.
+    effect : array, shape (r, k, k)
+        Of the scaled symmetric block on the whitened combinations.
+    face : array, shape (k, n)
+        Orthonormal basis of the components, scaled, on which the block must be semidefinite.
+    """
+
+    index: Block
+    scale: Array
+    effect: Array
+    face: Array
+
+
+@dataclass(frozen=True, slots=True)
+class PsdCone:
+    """The cone of the combinations that semidefinite blocks allow, in the metric of a covariance.
+
+    Attributes
+    ----------
+    root : array, shape (r, r)
+        Lower Cholesky factor of the covariance: `root^-1 s` has unit covariance.
+    effect : array, shape (r, p)
+        `root^-1 T`.
+    basis : array, shape (r, m)
+        Orthonormal; the whitened directions that the law restricts.
+    free : array, shape (p, f)
+        Changes of the parameters that it does not.
+    blocks : tuple of _Block
+        On their faces.
+    restrictions : tuple of array, shape (m, n, n)
+        Effect of each block's face on the restricted directions: `sum_k a_k A_k` is negative semidefinite for every outward
+        direction a.
+    """
+
+    root: Array
+    effect: Array
+    basis: Array
+    free: Array
+    blocks: tuple[_Block, ...]
+    restrictions: tuple[Array, ...]
+
+    @property
+    def dimension(self) -> int:
+        """In how many directions an estimate can leave the cone."""
+        return int(self.basis.shape[1])
+
+    @property
+    def one_sided(self) -> bool:
+        """Whether the law restricts more than by equations: a sign, a determinant."""
+        return any(block.face.shape[1] for block in self.blocks)
+
+
+@dataclass(frozen=True, slots=True)
+class Projection:
+    """The point of a cone nearest to an estimate.
+
+    Attributes
+    ----------
+    values : array, shape (r,)
+        The constrained estimate.
+    parameters : array, shape (p,)
+        A set of parameters that gives it: **one of many**. Every block is symmetric, and semidefinite in what the
+        combinations see of it; what they do not see can be chosen so that the whole block is, as nearly as one likes.
+    distance_squared : float
+        From the free estimate, in the metric of its covariance.
+    outward : array, shape (r,)
+        Coefficients of the combination that is out of bounds: at most zero for every set of parameters that obeys the law,
+        and `sqrt(distance_squared)` standard uncertainties above zero for the free estimate. Zero inside.
+    inside : bool
+        Whether the free estimate obeys the law itself; `values` are then its own.
+    """
+
+    values: Array
+    parameters: Array
+    distance_squared: float
+    outward: Array
+    inside: bool
+
+
+def psd_cone(covariance: Array, combinations: Array, blocks: Sequence[Block]) -> PsdCone:
+    """The cone of combinations `T c` whose parameters form symmetric positive semidefinite blocks.
+
+    Parameters
+    ----------
+    covariance : array, shape (r, r)
+        Of the estimated combinations.
+    combinations : array, shape (r, p)
+        T.
+    blocks : sequence of array of int, shape (k, k)
+        Index among the p parameters of every entry, -1 where there is none. An entry and its mirror may be two parameters,
+        which are then equal, or one. A parameter whose mirror is missing is free, and so is one of no block. A missing
+        diagonal restricts nothing.
+
+    Returns
+    -------
+    PsdCone
+
+    Raises
+    ------
+    InputError
+        If the covariance is not positive definite, shapes do not fit, or a parameter stands in two places.
+    UnsupportedError
+        If the solver is not installed.
+    """
+    root = _root(covariance)
+    if combinations.ndim != 2 or len(combinations) != len(root):
+        raise InputError(f"{len(root)} estimates need combinations of {len(root)} rows, got the shape {combinations.shape}")
+    effect = solve_triangular(root, combinations, lower=True)
+    own = _check_blocks(blocks, combinations.shape[1])
+    faced = [_block(block, effect) for block in blocks]
+    unbound = np.delete(np.eye(combinations.shape[1]), own, axis=1)
+    while True:
+        free = np.column_stack([unbound, *(_unrestricted(block, len(unbound)) for block in faced)])
+        basis = _complement(_unit_effects(effect, free)[0])
+        restrictions = [_restriction(block, basis) for block in faced]
+        unseen = _unseen(restrictions, basis.shape[1])
+        if unseen is None:
+            return PsdCone(root, effect, basis, free, tuple(faced), tuple(restrictions))
+        faced = [_without(block, direction) for block, direction in zip(faced, unseen, strict=True)]
+
+
+def project(cone: PsdCone, values: Array) -> Projection:
+    """The point of the cone nearest to an estimate: a semidefinite programme in `cone.dimension` variables.
+
+    Raises
+    ------
+    InputError
+        If the values are not r finite numbers.
+    UnsupportedError
+        If the solver is not installed, or fails.
+    """
+    if values.shape != (len(cone.root),) or not np.isfinite(values).all():
+        raise InputError(f"the estimate must be {len(cone.root)} finite numbers, got {values}")
+    white = solve_triangular(cone.root, values, lower=True)
+    outside, multipliers = _polar(cone, cone.basis.T @ white)
+    distance = float(outside @ outside)
+    inside = distance <= INSIDE
+    outward = np.zeros(len(white)) if inside else cone.basis @ outside
+    nearest = white - outward
+    parameters = np.zeros(cone.effect.shape[1])
+    for block, multiplier in zip(cone.blocks, multipliers, strict=True):
+        parameters += _assembled(block, block.face @ multiplier @ block.face.T, len(parameters))
+    if cone.free.shape[1]:
+        columns, factors = _unit_effects(cone.effect, cone.free)
+        rest, *_ = np.linalg.lstsq(columns, nearest - cone.effect @ parameters, rcond=_DEPENDENT)
+        parameters += cone.free @ (factors * rest)
+    return Projection(
+        values=values.copy() if inside else cone.root @ nearest,
+        parameters=parameters,
+        distance_squared=0.0 if inside else distance,
+        outward=solve_triangular(cone.root, outward, lower=True, trans="T"),
+        inside=inside,
+    )
+
+
+def is_never_negative(cone: PsdCone, weights: Array) -> bool:
+    """Whether a weighted sum of the combinations is zero or more for every set of parameters that obeys the law."""
+    coordinates = cone.basis.T @ (cone.root.T @ weights)
+    size = float(np.linalg.norm(cone.root.T @ weights))
+    if not size or np.linalg.norm(coordinates) < size * (1 - _UNSEEN):
+        return False  # it changes along a direction that the law leaves free
+    matrices = [np.tensordot(coordinates, matrices, 1) / size for matrices in cone.restrictions]
+    return all(np.linalg.eigvalsh(matrix).min(initial=0.0) >= -_UNSEEN for matrix in matrices)
+
+
+def p_value_bound(
+    distance_squared: float, dimension: int, degrees_of_freedom: float = inf, *, one_sided: bool = True
+) -> float:
+    """Upper bound of the probability of such a distance from the cone or a greater one, whatever parameters obey the law.
+
+    The least favourable of them is the apex of the cone, the least favourable cone a half-line short of a space: half
+    chi-square of m degrees of freedom, half of m - 1 (Perlman 1969). For m = 1, a sign, it is exact.
+
+    Parameters
+    ----------
+    distance_squared : float
+    dimension : int
+        m: `PsdCone.dimension`.
+    degrees_of_freedom : float
+        nu, of the one variance by which the covariance was scaled; infinite if the covariance is known. With finite nu, i
+        times Fisher's F of (i, nu) replaces chi-square of i. **Not for a covariance that is estimated as a whole.**
+    one_sided : bool
+        `PsdCone.one_sided`; a law of equations only has the whole of chi-square of m.
+
+    Returns
+    -------
+    float
+        1 for a distance of zero.
+    """
+    if distance_squared <= 0 or dimension == 0:
+        return 1.0
+    tail = _tail(distance_squared, dimension, degrees_of_freedom)
+    return 0.5 * (tail + _tail(distance_squared, dimension - 1, degrees_of_freedom)) if one_sided else tail
+
+
+def p_value_at(
+    cone: PsdCone,
+    distance_squared: float,
+    at: Array | None = None,
+    degrees_of_freedom: float = inf,
+    draws: int = 999,
+    seed: int = 0,
+) -> float:
+    """Probability of such a distance or a greater one by Monte Carlo, if one given set of combinations is true.
+
+    Parameters
+    ----------
+    cone : PsdCone
+    distance_squared : float
+    at : array, shape (r,), optional
+        True combinations, in the cone. Default its apex, zero: the least favourable, so that the probability is at most
+        this for any truth. At the projection of the estimate it is smaller, and the level **only if that is the truth**.
+    degrees_of_freedom : float
+        Of the one variance by which the covariance was scaled.
+    draws, seed : int
+        Fixed seed: the same call gives the same number.
+
+    Returns
+    -------
+    float
+        `(1 + k) / (1 + draws)` with k draws as far or farther: a p-value in its own right, never zero.
+    """
+    random = np.random.default_rng(seed)
+    centre = np.zeros(cone.dimension)
+    if at is not None:
+        centre = cone.basis.T @ solve_triangular(cone.root, at, lower=True)
+    count = 0
+    for _ in range(draws):
+        variance = 1.0
+        if np.isfinite(degrees_of_freedom):
+            variance = random.chisquare(degrees_of_freedom) / degrees_of_freedom
+        outside, _multipliers = _polar(cone, centre + random.standard_normal(cone.dimension))
+        count += bool(outside @ outside >= distance_squared * variance)
+    return (1 + count) / (1 + draws)
+
+
+def _tail(square: float, i: int, nu: float) -> float:
+    """Probability that chi-square of i degrees of freedom, over a variance known to nu, exceeds a positive number."""
+    if i == 0:
+        return 0.0
+    return float(chdtrc(i, square) if np.isinf(nu) else fdtrc(i, nu, square / i))
+
+
+def _root(covariance: Array) -> Array:
+    """Lower Cholesky factor, taken of the correlations so that no unit decides."""
+    if covariance.ndim != 2 or covariance.shape[0] != covariance.shape[1] or not np.isfinite(covariance).all():
+        raise InputError(f"the covariance must be a square matrix of finite numbers, got the shape {covariance.shape}")
+    variance = np.diag(covariance)
+    if not (variance > 0).all():
+        raise InputError("the covariance must be positive definite; a variance in it is not positive")
+    deviation = np.sqrt(variance)
+    try:
+        root = np.linalg.cholesky(covariance / np.outer(deviation, deviation))
+    except np.linalg.LinAlgError as error:
+        raise InputError("the covariance must be positive definite; some combination has no variance") from error
+    return np.asarray(deviation[:, np.newaxis] * root)
+
+
+def _check_blocks(blocks: Sequence[Block], parameters: int) -> list[int]:
+    """The parameters that the blocks restrict: diagonals, and off-diagonals whose mirror is there."""
+    own: list[int] = []
+    for block in blocks:
+        if block.ndim != 2 or block.shape[0] != block.shape[1]:
+            raise InputError(f"a block must be square, got the shape {block.shape}")
+        if block.size and (block.min() < -1 or block.max() >= parameters):
+            raise InputError(f"a block names the parameters {block.min()} to {block.max()}; there are {parameters}")
+        for i in range(len(block)):
+            for j in range(i + 1):
+                if block[i, j] >= 0 and block[j, i] >= 0:
+                    own += sorted({int(block[i, j]), int(block[j, i])})
+    twice = sorted({k for k in own if own.count(k) > 1})
+    if twice:
+        raise InputError(f"parameter {twice[0]} stands in two places of the blocks")
+    return own
+
+
+def _block(index: Block, effect: Array) -> _Block:
+    """A block with its components scaled; those whose diagonal is missing or without effect restrict nothing."""
+    size = len(index)
+    matrices = np.zeros((len(effect), size, size))
+    for i in range(size):
+        if index[i, i] >= 0:
+            matrices[:, i, i] = effect[:, index[i, i]]
+        for j in range(i):
+            if index[i, j] >= 0 and index[j, i] >= 0:
+                both = sum(effect[:, k] for k in {index[i, j], index[j, i]})
+                matrices[:, i, j] = matrices[:, j, i] = both / 2
+    norms = np.array([np.linalg.norm(matrices[:, i, i]) for i in range(size)])
+    seen = norms > 0
+    scale = np.divide(1.0, np.sqrt(norms), out=np.ones(size), where=seen)
+    return _Block(index, scale, matrices * scale * scale[:, np.newaxis], np.eye(size)[:, seen])
+
+
+def _assembled(block: _Block, matrix: Array, parameters: int) -> Array:
+    """Parameters, shape (p,), of a scaled symmetric matrix in the place of a block."""
+    c = np.zeros(parameters)
+    unscaled = matrix * block.scale * block.scale[:, np.newaxis]
+    restricted = (block.index >= 0) & (block.index.T >= 0)
+    c[block.index[restricted]] = unscaled[restricted]
+    return c
+
+
+def _unrestricted(block: _Block, parameters: int) -> Array:
+    """Changes of the parameters, shape (p, f), that leave a block as it is on its face."""
+    size = len(block.index)
+    off_face = _complement(block.face)
+    pairs = [np.outer(w, e) for w in off_face.T for e in np.eye(size)]
+    return np.array([_assembled(block, pair + pair.T, parameters) for pair in pairs]).reshape(-1, parameters).T
+
+
+def _restriction(block: _Block, basis: Array) -> Array:
+    """Effect, shape (m, n, n), of a block's face on the restricted directions."""
+    return np.asarray(np.einsum("rm,rij,ia,jb->mab", basis, block.effect, block.face, block.face, optimize=True))
+
+
+def _unit_effects(effect: Array, changes: Array) -> tuple[Array, Array]:
+    """Effects of changes of the parameters as unit columns, and the factors that make them so; zero if rounding error."""
+    columns = effect @ changes
+    norms = np.linalg.norm(columns, axis=0)
+    seen = norms > _DEPENDENT * np.linalg.norm(np.abs(effect) @ np.abs(changes), axis=0)
+    factors = np.divide(1.0, norms, out=np.zeros_like(norms), where=seen)
+    return columns * factors, factors
+
+
+def _complement(columns: Array) -> Array:
+    """Orthonormal basis of all that is orthogonal to some columns of unit length, or zero."""
+    U, values, _ = np.linalg.svd(columns)
+    return np.asarray(U[:, int(np.sum(values > _DEPENDENT)) :])
+
+
+def _without(block: _Block, direction: Array) -> _Block:
+    """The block on what is left of its face without a semidefinite direction, given on the face."""
+    values, vectors = np.linalg.eigh(direction)
+    return _Block(block.index, block.scale, block.effect, block.face @ vectors[:, values <= _RANK])
+
+
+def _unseen(restrictions: Sequence[Array], dimension: int) -> list[Array] | None:
+    """A semidefinite direction of the blocks, of greatest rank, that changes nothing in the restricted directions, if any.
+
+    Its blocks are the multipliers of: greatest t for which some `a` of length 1 has `-sum_k a_k A_k - t I` semidefinite.
+    """
+    sizes = [matrices.shape[1] for matrices in restrictions]
+    if not any(sizes):
+        return None
+    if not dimension:
+        return [np.eye(size) for size in sizes]
+    rows = np.vstack([np.column_stack([_svec(np.eye(n)), _svec(A).T]) for n, A in zip(sizes, restrictions, strict=True)])
+    ball = np.column_stack([np.zeros(dimension + 1), np.vstack([np.zeros(dimension), -np.eye(dimension)])])
+    clarabel = _clarabel()
+    solution = _solved(
+        np.zeros((dimension + 1, dimension + 1)),
+        np.concatenate([[-1.0], np.zeros(dimension)]),
+        np.vstack([rows, ball]),
+        np.concatenate([np.zeros(len(rows)), [1.0], np.zeros(dimension)]),
+        [*(clarabel.PSDTriangleConeT(n) for n in sizes if n), clarabel.SecondOrderConeT(dimension + 1)],
+    )
+    if solution.x[0] > _UNSEEN:
+        return None
+    directions = _matrices(np.array(solution.z), sizes)
+    greatest = max(float(np.linalg.eigvalsh(direction).max(initial=0.0)) for direction in directions)
+    return [direction / greatest for direction in directions]
+
+
+def _polar(cone: PsdCone, point: Array) -> tuple[Array, list[Array]]:
+    """Nearest point of the polar cone, shape (m,), and the multipliers of its blocks: those of the cone's nearest point."""
+    sizes = [matrices.shape[1] for matrices in cone.restrictions]
+    if not any(sizes):
+        return point, [np.zeros((n, n)) for n in sizes]
+    rows = np.vstack([_svec(A).T for A in cone.restrictions])
+    cones = [_clarabel().PSDTriangleConeT(n) for n in sizes if n]
+    solution = _solved(np.eye(len(point)), -point, rows, np.zeros(len(rows)), cones)
+    return np.array(solution.x), _matrices(np.array(solution.z), sizes)
+
+
+def _svec(matrices: Array) -> Array:
+    """Upper triangles, column by column, off-diagonals times the root of two: inner products are kept."""
+    columns, rows = np.tril_indices(matrices.shape[-1])
+    return np.asarray(matrices[..., rows, columns] * np.where(rows == columns, 1.0, sqrt(2)))
+
+
+def _matrices(vector: Array, sizes: Sequence[int]) -> list[Array]:
+    """Symmetric matrices of the upper triangles that a vector begins with."""
+    matrices, first = [], 0
+    for n in sizes:
+        columns, rows = np.tril_indices(n)
+        upper = np.zeros((n, n))
+        upper[rows, columns] = vector[first : first + len(rows)] * np.where(rows == columns, 0.5, sqrt(0.5))
+        matrices.append(upper + upper.T)
+        first += len(rows)
+    return matrices
+
+
+def _solved(P: Array, q: Array, A: Array, b: Array, cones: list[Any]) -> Any:
+    """Minimise `x^T P x / 2 + q^T x` with `b - A x` in the cones, to the tightest tolerance that rounding error allows."""
+    clarabel = _clarabel()
+    settings = clarabel.DefaultSettings()
+    settings.verbose = False
+    settings.max_threads = 1
+    status = ""
+    for tolerance in _TOLERANCES:
+        settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
+        solver = clarabel.DefaultSolver(sparse.csc_matrix(np.triu(P)), q, sparse.csc_matrix(A), b, cones, settings)
+        solution = solver.solve()
+        status = str(solution.status)
+        if status == "Solved":
+            return solution
+    raise UnsupportedError(f"the semidefinite programme of the constrained estimate was not solved: {status}")
+
+
+def _clarabel() -> ModuleType:
+    try:
+        return import_module("clarabel")
+    except ImportError as error:
+        raise UnsupportedError(
+            "the constrained estimate needs the solver clarabel, which is not installed: pip install 'elastogeo[physics]'"
+        ) from error

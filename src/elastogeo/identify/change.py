@@ -1,0 +1,172 @@
+"""Has something changed? Between local estimates of one test, and between two tests of one machine.
+
+A difference is judged against the covariance of the difference: two estimates from overlapping force levels share runs, and
+estimates from close levels are strongly coupled. What looks like a geometry that changes with the force can be just that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import fdtrc
+
+from elastogeo.errors import DegreesOfFreedomError, UnsupportedError
+from elastogeo.estimate import Factor, Solution, merge, select, solve
+from elastogeo.machine import Array
+
+SIGNIFICANT = 0.05
+"""Probability, without any change, below which a difference counts as a change."""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A joint test of differences.
+
+    Attributes
+    ----------
+    labels : tuple of str
+        Parameters whose differences are tested.
+    statistic : float
+        `d^T V^-1 d / q`: F-distributed with `q` and `degrees_of_freedom` if nothing changed.
+    q : int
+        How many differences.
+    degrees_of_freedom : float
+    p_value : float
+        Probability of such differences, or greater ones, if nothing changed.
+    each : dict of str to float
+        The same for each parameter by itself.
+    """
+
+    labels: tuple[str, ...]
+    statistic: float
+    q: int
+    degrees_of_freedom: float
+    p_value: float
+    each: dict[str, float]
+
+    @property
+    def significant(self) -> bool:
+        """Whether something changed by more than its uncertainty."""
+        return self.p_value < SIGNIFICANT
+
+
+def run_dispersion(runs: Sequence[Factor], labels: Sequence[str]) -> tuple[float, float]:
+    """Variance of one reading as the scatter *between* runs shows it, and its degrees of freedom.
+
+    Within the space of traces that the parameters can make, each run gives as many numbers as its design has rank; what the
+    common fit leaves of them scatters by the noise of the readings if runs are alike, and by more if they are not.
+
+    Raises
+    ------
+    DegreesOfFreedomError
+        If the runs leave nothing over.
+    """
+    chosen = [select(run, labels) for run in runs]
+    values = solve(merge(*chosen)).values
+    left = sum(float(np.sum((run.z - run.R @ values) ** 2)) for run in chosen)
+    norms = [run.column_norms for run in chosen]
+    ranks = sum(
+        int(np.linalg.matrix_rank(run.R / np.where(n > 0, n, 1.0), tol=1e-8)) for run, n in zip(chosen, norms, strict=True)
+    )
+    freedom = ranks - len(labels)
+    if freedom <= 0:
+        raise DegreesOfFreedomError(f"{len(runs)} runs leave no degree of freedom for {len(labels)} parameters")
+    return left / freedom, float(freedom)
+
+
+def local_change(runs: Sequence[Factor], labels: Sequence[str], choices: Sequence[Sequence[int]]) -> Change:
+    """Whether estimates from choices of runs differ by more than their uncertainty.
+
+    Parameters
+    ----------
+    runs : sequence of Factor
+    labels : sequence of str, length p
+    choices : sequence of sequence of int
+        For each local estimate the runs it uses; they may overlap.
+
+    Returns
+    -------
+    Change
+        Of each local estimate against the first; the joint covariance has the runs they share.
+
+    Raises
+    ------
+    UnsupportedError
+        If there are fewer than two local estimates.
+    """
+    if len(choices) < 2:
+        raise UnsupportedError(
+            "to say whether local estimates differ takes two of them; measure at three force levels or more"
+        )
+    chosen = [select(run, labels) for run in runs]
+    variance, freedom = run_dispersion(runs, labels)
+    norms = merge(*chosen).column_norms
+    grams = [(run.R / norms).T @ (run.R / norms) for run in chosen]
+    inverses = [np.linalg.inv(sum(grams[r] for r in choice)) for choice in choices]
+    values = np.array([solve(merge(*(chosen[r] for r in choice))).values * norms for choice in choices])
+    covariance = variance * np.block(
+        [[inverses[i] @ _shared(grams, a, b) @ inverses[j] for j, b in enumerate(choices)] for i, a in enumerate(choices)]
+    )
+    return _tested(values, covariance, freedom, labels)
+
+
+def difference(one: Solution, other: Solution, shared: Array | None = None) -> Change:
+    """Whether two estimates of the same parameters differ by more than their uncertainty.
+
+    Parameters
+    ----------
+    one, other : Solution
+        Of two tests of one machine, with the same labels.
+    shared : array, shape (p, p), optional
+        Covariance that both have in common (the same gauge, the same bar); it cancels.
+
+    Raises
+    ------
+    UnsupportedError
+        If the parameters are not the same.
+    """
+    if one.labels != other.labels:
+        raise UnsupportedError(
+            f"the tests determine different parameters, {', '.join(one.labels)} and {', '.join(other.labels)}; "
+            f"ask both for the same ones"
+        )
+    covariance = one.covariance + other.covariance - (0.0 if shared is None else 2 * shared)
+    scale = np.sqrt(np.diag(covariance))
+    delta = (other.values - one.values) / scale
+    freedom = min(float(one.degrees_of_freedom.min()), float(other.degrees_of_freedom.min()))
+    return _joint(delta, covariance / np.outer(scale, scale), freedom, one.labels, [[k] for k in range(len(delta))])
+
+
+def _shared(grams: Sequence[Array], one: Sequence[int], other: Sequence[int]) -> Array:
+    common = [grams[r] for r in one if r in other]
+    return np.asarray(sum(common, np.zeros_like(grams[0])))
+
+
+def _tested(values: Array, covariance: Array, freedom: float, labels: Sequence[str]) -> Change:
+    """Every estimate against the first."""
+    count, p = values.shape
+    contrast = np.kron(np.column_stack([-np.ones(count - 1), np.eye(count - 1)]), np.eye(p))
+    delta = contrast @ values.ravel()
+    spread = contrast @ covariance @ contrast.T
+    scale = np.sqrt(np.diag(spread))
+    of = [list(range(k, len(delta), p)) for k in range(p)]
+    return _joint(delta / scale, spread / np.outer(scale, scale), freedom, labels, of)
+
+
+def _joint(delta: Array, correlation: Array, freedom: float, labels: Sequence[str], of: Sequence[Sequence[int]]) -> Change:
+    statistic, q = _quadratic(delta, correlation)
+    each = {}
+    for label, rows in zip(labels, of, strict=True):
+        value, size = _quadratic(delta[rows], correlation[np.ix_(rows, rows)])
+        each[label] = float(fdtrc(size, freedom, value / size))
+    return Change(tuple(labels), statistic / q, q, freedom, float(fdtrc(q, freedom, statistic / q)), each)
+
+
+def _quadratic(delta: Array, correlation: Array) -> tuple[float, int]:
+    """`d^T V^+ d` and the rank of V: differences that depend on one another count once."""
+    values, vectors = np.linalg.eigh(correlation)
+    free = values > 1e-10 * values[-1]
+    along = vectors[:, free].T @ delta
+    return float(np.sum(along**2 / values[free])), int(free.sum())

@@ -1,0 +1,83 @@
+"""What happens where an axis turns back: backlash, lateral play, and the spike of friction.
+
+`B_XX` is the backlash of X (its reversal value: what is lost when it turns back), `B_YX` its lateral play in y. The carriage
+lags by half of it. `S_XX` is the height of a spike that dies away within `SPIKE_LENGTH` of travel after the turn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from elastogeo.machine import COMPONENTS, Array, Joint, Machine
+from elastogeo.sources.families import family
+from elastogeo.sources.situation import Situation
+from elastogeo.sources.source import Source, twist_unit
+
+SPIKE_LENGTH = 0.1
+"""Travel [mm or degrees] after a reversal in which its spike falls to 37 %."""
+
+_NEAR_TURN = 0.02
+"""How near to the end of its motion, as a share of it, an axis must be read on both ways for a reversal to be there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lag:
+    """Driver: minus half the sense of the axis's motion."""
+
+    axis: str
+
+    def __call__(self, situation: Situation) -> Array:
+        """-1/2, 0 or 1/2 at every reading, shape (m,)."""
+        return -0.5 * situation.sense(self.axis)
+
+
+@dataclass(frozen=True, slots=True)
+class AfterReversal:
+    """Driver: minus the sense of the motion, dying away with the travel since the axis turned back."""
+
+    axis: str
+    length: float
+
+    def __call__(self, situation: Situation) -> Array:
+        """Values between -1 and 1 at every reading, shape (m,); 0 where no reversal lies before."""
+        at, sense = situation.command(self.axis), situation.sense(self.axis)
+        spike = np.zeros(len(at))
+        for end, leaving in ((at.min(), 1.0), (at.max(), -1.0)):
+            near = np.abs(at - end) < _NEAR_TURN * np.ptp(at)
+            if {-1.0, 1.0} <= set(sense[near]):
+                away = sense == leaving
+                spike[away] = -leaving * np.exp(-np.abs(at[away] - end) / self.length)
+        return spike
+
+
+@family
+def reversal_errors(machine: Machine) -> Iterator[Source]:
+    """Backlash and lateral play, translations and rotations, of every axis but the spindle; a spike along each."""
+    for joint in machine.joints:
+        if joint.name == "S":
+            continue
+        along = joint.direction + 3 * joint.is_rotary
+        yield from (_play(joint, d, along) for d in range(6))
+        yield Source(
+            name=f"S_{COMPONENTS[along]}{joint.name}",
+            unit=twist_unit(along),
+            site=("motion", joint.name),
+            component=along,
+            driver=AfterReversal(joint.name, np.deg2rad(SPIKE_LENGTH) if joint.is_rotary else SPIKE_LENGTH),
+            meaning=f"reversal spike of {joint.name}",
+        )
+
+
+def _play(joint: Joint, d: int, along: int) -> Source:
+    kind = "backlash" if d == along else f"{'angular' if d >= 3 else 'lateral'} play ({COMPONENTS[d]})"
+    return Source(
+        name=f"B_{COMPONENTS[d]}{joint.name}",
+        unit=twist_unit(d),
+        site=("motion", joint.name),
+        component=d,
+        driver=Lag(joint.name),
+        meaning=f"{kind} of {joint.name}",
+    )
