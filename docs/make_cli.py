@@ -6,12 +6,12 @@ import sys
 from pathlib import Path
 
 PAGE = Path(__file__).with_name("cli.md")
-COMMANDS = ("demo", "new", "simulate", "identify", "confounding", "machines")
+COMMANDS = ("demo", "new", "simulate", "identify", "diagnose", "whatif", "compare", "confounding", "machines")
 INTRODUCTION = """\
 # Command line
 
-Exit codes: 0 done; 1 the data do not support what was asked, the message says why; 2 wrong input or usage, one error on standard
-error. `--json` prints one object on standard output and nothing else (see [Files](formats.md)). Colours follow `NO_COLOR`.
+Exit codes: 0 done; 1 the data do not support what was asked, the message says why; 2 wrong input or usage, one error on
+standard error. `--json` prints one object on standard output and nothing else (see [Files](formats.md)). Colours follow `NO_COLOR`.
 `elastogeo --install-completion` sets up completion for your shell.
 
 This page is written from the help texts by `docs/make_cli.py`.

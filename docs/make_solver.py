@@ -207,7 +207,7 @@ What to read in it:
   polynomial of the tenth degree on -9 to -3 whose scaled condition number is 5 · 10⁹, the last half digit depends on the
   order of the rows and on the processor.
 - **refined** is `refine`: one step of iterative refinement with residuals, and the products of columns, in doubled
-  precision. It reaches the exact solution of the float64 data to 13 digits (a test compares it with rational arithmetic);
+  precision. It reaches the exact solution of the float64 data to 12 digits (a test compares it with rational arithmetic);
   what is missing from 15 in the table, the data lost when they were written in float64, and where the plain solution
   shows more, that is chance. The result does not depend on the order of the rows, the size of blocks, or the platform.
   Use it when a confounding report calls the problem weak and the answer still matters; an ordinary test of a machine gains

@@ -204,12 +204,17 @@ def numbers(text: str) -> dict[str, list[float]]:
 
 
 def test_the_page_is_that_of_its_script() -> None:
-    """Its words exactly, its figures to 0.3 digit, as far as the sets are here."""
+    """Its words exactly, its figures to 0.3 digit: all of them from NIST's files, without these the refined ones of Wampler.
+
+    The others may differ by more on another processor; beyond the 14th digit it is NIST's own rounding.
+    """
     shown = make_solver.PAGE.read_text(encoding="utf-8")
     sets, origin = make_solver.references()
     written, measured = numbers(shown), numbers(make_solver.table(sets))
     assert list(written) == list(make_solver.NAMES)
+    columns = slice(None) if FROM_FILES else slice(2, 4)
     for name, row in measured.items():
-        assert_allclose(row, written[name], rtol=0, atol=0.3, err_msg=f"{name}, {origin}: run docs/make_solver.py")
+        one, other = np.minimum(row, 14.0)[columns], np.minimum(written[name], 14.0)[columns]
+        assert_allclose(one, other, rtol=0, atol=0.3, err_msg=f"{name}, from {origin}: run docs/make_solver.py")
     words = [line for line in shown.splitlines() if not line.startswith("|")]
     assert words == [line for line in make_solver.page(sets).splitlines() if not line.startswith("|")]

@@ -94,13 +94,13 @@ def test_a_missing_run_file_is_refused_with_its_path(folder):
         read_test(folder)
 
 
-def test_the_example_is_reproduced_byte_for_byte(tmp_path):
-    script = example_test() / "make_runs.py"
-    done = subprocess.run(
-        [sys.executable, str(script), str(tmp_path / "again")], capture_output=True, text=True, check=False
-    )
+@pytest.mark.parametrize(("example", "runs"), [("hermle-c50-ldbb", 15), ("ball-bar-diagnosis", 6), ("one-level", 3)])
+def test_the_examples_are_reproduced_byte_for_byte(example, runs, tmp_path):
+    folder = example_test().parent
+    command = [sys.executable, str(folder / "make_runs.py"), str(folder / example), str(tmp_path / "again")]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "15 runs in" in done.stdout
+    assert f"{runs} runs in" in done.stdout
     assert "0 differ" in done.stdout
 
 

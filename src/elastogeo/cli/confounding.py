@@ -30,7 +30,8 @@ def confounding(
     from elastogeo.identify import confounding_of, systems_of, with_question
     from elastogeo.report import confounding_json
 
-    asked = with_question(read_test(test, full_turn(planned) if planned else None), parameters, prefer, reference)
+    planned_test = read_test(test, full_turn(planned)) if planned else read_test(test)
+    asked = with_question(planned_test, parameters, prefer, reference)
     found = confounding_of(asked, systems_of(asked))
     if as_json:
         screen.show_json(confounding_json(found, asked))

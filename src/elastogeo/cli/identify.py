@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, Parameters, Prefer, Reference, TestPath
+from elastogeo.cli.options import AsJson, Parameters, Prefer, Reference, TestPath, refuse_if
 
 
 def identify(
@@ -41,3 +41,4 @@ def identify(
         screen.show_identification(result)
         if written:
             screen.say(f"Report: {written}")
+    refuse_if(result.verdict)

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from elastogeo.identify import Check
 
 TestPath = Annotated[Path, typer.Argument(metavar="TEST", help="A folder with a test.toml, or a test file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
@@ -20,3 +24,9 @@ Prefer = Annotated[
     list[str] | None,
     typer.Option("--prefer", help="Parameter to retain before others that cannot be told from it; may be repeated."),
 ]
+
+
+def refuse_if(verdict: Iterable[Check]) -> None:
+    """End with exit code 1 if a decisive check of a verdict failed: the data do not support what was asked."""
+    if any(check.decisive and not check.passed for check in verdict):
+        raise typer.Exit(1)

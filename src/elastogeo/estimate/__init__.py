@@ -11,14 +11,16 @@ from elastogeo.estimate.propagation import (
     monte_carlo,
     numerical_tolerance,
 )
+from elastogeo.estimate.refinement import refine
 from elastogeo.estimate.repeats import Repeatability, repeatability
-from elastogeo.estimate.solution import Noise, Solution, minimum_norm, solve, white_noise
+from elastogeo.estimate.solution import SOLVABLE, Noise, Solution, minimum_norm, solve, white_noise
 
 __all__ = [
     "BLOCK_ROWS",
     "DISTRIBUTIONS",
     "NULL_TOLERANCE",
     "RANK_TOLERANCE",
+    "SOLVABLE",
     "Confounding",
     "Factor",
     "Influence",
@@ -36,6 +38,7 @@ __all__ = [
     "minimum_norm",
     "monte_carlo",
     "numerical_tolerance",
+    "refine",
     "repeatability",
     "select",
     "solve",

@@ -34,6 +34,12 @@ Block = NDArray[np.int_]
 INSIDE = 1e-8
 """An estimate nearer to the cone than this, in squared standard uncertainties, is inside."""
 
+ROUNDING = 1e-10
+"""An estimate outside by less than this share of its own size is inside: it is the rounding error of its readings."""
+
+_LARGE = 1e8
+"""Size, in standard uncertainties, that the solver takes as it is; estimates from readings without noise are larger."""
+
 _TOLERANCES = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8)
 """Of the solver, tried in this order."""
 
@@ -189,14 +195,15 @@ def project(cone: PsdCone, values: Array) -> Projection:
     if values.shape != (len(cone.root),) or not np.isfinite(values).all():
         raise InputError(f"the estimate must be {len(cone.root)} finite numbers, got {values}")
     white = solve_triangular(cone.root, values, lower=True)
-    outside, multipliers = _polar(cone, cone.basis.T @ white)
-    distance = float(outside @ outside)
-    inside = distance <= INSIDE
-    outward = np.zeros(len(white)) if inside else cone.basis @ outside
+    size = max(1.0, float(np.linalg.norm(white)) / _LARGE)  # a cone has no size of its own: it may be solved smaller
+    outside, multipliers = _polar(cone, cone.basis.T @ white / size)
+    distance = float(outside @ outside) * size**2
+    inside = distance <= max(INSIDE, (ROUNDING * size * _LARGE) ** 2)
+    outward = np.zeros(len(white)) if inside else cone.basis @ outside * size
     nearest = white - outward
     parameters = np.zeros(cone.effect.shape[1])
     for block, multiplier in zip(cone.blocks, multipliers, strict=True):
-        parameters += _assembled(block, block.face @ multiplier @ block.face.T, len(parameters))
+        parameters += size * _assembled(block, block.face @ multiplier @ block.face.T, len(parameters))
     if cone.free.shape[1]:
         columns, factors = _unit_effects(cone.effect, cone.free)
         rest, *_ = np.linalg.lstsq(columns, nearest - cone.effect @ parameters, rcond=_DEPENDENT)

@@ -178,7 +178,7 @@ def _pair(text: str) -> tuple[str, str] | None:
         cells = [cell.strip() for cell in split_cells(text.rstrip(SEPARATORS), separator)] if separator in text else []
         if len(cells) not in (2, 3) or not _KEY.fullmatch(cells[0]):
             continue
-        if NUMBER.fullmatch(cells[1]) or _DIRECTION.fullmatch(cells[1]):
+        if NUMBER.fullmatch(cells[1]) or ("direction" in cells[0].lower() and _DIRECTION.fullmatch(cells[1])):
             unit = f" [{cells[2]}]" if len(cells) == 3 else ""
             return f"{cells[0]}{unit}", cells[1]
     return None

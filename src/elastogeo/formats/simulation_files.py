@@ -14,7 +14,8 @@ import numpy as np
 from elastogeo.errors import FormatError, InputError
 from elastogeo.formats.documents import build, check_schema, read_document
 from elastogeo.formats.run_files import RunFormat, run_formats
-from elastogeo.formats.trial_files import Columns, read_test_document
+from elastogeo.formats.table import Table
+from elastogeo.formats.trial_files import ReadRun, read_test_document
 from elastogeo.formats.units import QUANTITIES, from_internal
 from elastogeo.machine import Angle, Array
 from elastogeo.observe import Imperfection, MachineTest, Run
@@ -79,15 +80,16 @@ def read_simulation(path: Path) -> Simulation:
     return build(Simulation, table, str(path))
 
 
-def full_turn(readings: int) -> Columns:
+def full_turn(readings: int) -> ReadRun:
     """Poses of one full turn with this many readings, for runs that no file holds yet."""
     return poses_of(Simulation(SCHEMA, {}, readings=readings))
 
 
-def poses_of(simulation: Simulation) -> Columns:
+def poses_of(simulation: Simulation) -> ReadRun:
     """The poses at which a simulation reads, for runs that no file holds yet."""
     angle = simulation.angle()
-    return lambda _: {"angle": angle, "radial": np.zeros(len(angle))}
+    columns = {"angle": angle, "radial": np.zeros(len(angle))}
+    return lambda path: Table(columns, {}, str(path))
 
 
 def write_runs(path: Path, test: MachineTest, seed: int) -> tuple[Path, ...]:

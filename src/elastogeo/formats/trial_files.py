@@ -12,7 +12,8 @@ from elastogeo.errors import FormatError, InputError
 from elastogeo.formats.documents import build, check_schema, read_document
 from elastogeo.formats.machine_files import find_machine
 from elastogeo.formats.run_files import read_run
-from elastogeo.machine import Array, OptionalForce, OptionalLength, OptionalPressure
+from elastogeo.formats.table import Table
+from elastogeo.machine import OptionalForce, OptionalLength, OptionalPressure
 from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, instrument_named
 
 SCHEMA = "elastogeo.test/1"
@@ -20,7 +21,7 @@ FILE_NAME = "test.toml"
 EXAMPLE = "hermle-c50-ldbb"
 _SENSES = {"ccw": 1, "cw": -1}
 
-Columns = Callable[[Path], Mapping[str, Array]]
+ReadRun = Callable[[Path], Table]
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,12 +32,12 @@ class RunDocument:
     name: str = ""
     force: OptionalForce = None
     pressure: OptionalPressure = None
-    sense: str = "ccw"
+    sense: str = ""
     repeat: int = 1
 
     def __post_init__(self) -> None:
         """Refuse a sense of rotation that is none."""
-        if self.sense not in _SENSES:
+        if self.sense and self.sense not in _SENSES:
             raise InputError(f"sense is {self.sense!r}; write ccw (counter-clockwise) or cw (clockwise)")
 
 
@@ -56,15 +57,15 @@ class TestDocument:
     simulated: str = ""
 
 
-def read_test(path: Path, columns: Columns | None = None) -> MachineTest:
+def read_test(path: Path, read: ReadRun = read_run) -> MachineTest:
     """Read a test: a folder that holds a `test.toml`, or such a file.
 
     Parameters
     ----------
     path : Path
-    columns : callable, optional
-        From the path of a run file to its columns in the units of the house; by default the file is read. A simulation
-        gives its poses here, for runs that no file holds yet.
+    read : callable
+        From the path of a run file to its table; by default the file is read. A simulation gives its poses here, for runs
+        that no file holds yet.
 
     Returns
     -------
@@ -82,7 +83,7 @@ def read_test(path: Path, columns: Columns | None = None) -> MachineTest:
         name=document.name,
         machine=find_machine(document.machine, file.parent),
         setup=build(instrument_named(document.instrument), document.setup, f"{file}, setup"),
-        runs=tuple(_run(entry, file.parent, columns or _read) for entry in document.runs),
+        runs=tuple(_run(entry, file.parent, read) for entry in document.runs),
         question=document.question,
         resolution=document.resolution,
         influences=document.influences,
@@ -122,16 +123,20 @@ def example_test() -> Path:
     raise FormatError(f"the example {EXAMPLE} did not come with this copy of elastogeo; install it again")
 
 
-def _run(document: RunDocument, folder: Path, columns: Columns) -> Run:
+def _run(document: RunDocument, folder: Path, read: ReadRun) -> Run:
+    table = read(folder / document.file)
+    said, _, number = document.file.partition("#")
+    sense = document.sense or table.metadata.get("direction", "ccw").lower()
+    if sense != table.metadata.get("direction", sense).lower():
+        raise FormatError(
+            f"{table.source}: the file says that the run went {table.metadata['direction']}, the test says {sense}; "
+            f"correct the test file, or leave its sense out"
+        )
     return Run(
-        name=document.name or Path(document.file).stem,
-        columns=columns(folder / document.file),
+        name=document.name or "-".join(filter(None, [Path(said).stem, number])),
+        columns=table.columns,
         force=document.force,
         pressure=document.pressure,
-        sense=_SENSES[document.sense],
+        sense=_SENSES[sense],
         repeat=document.repeat,
     )
-
-
-def _read(path: Path) -> Mapping[str, Array]:
-    return read_run(path).columns

@@ -109,7 +109,7 @@ def enclosed(paths: Sequence[Path], radius: float, centre: Centre) -> EnclosedPa
     UnsupportedError
         If a centre is to be found on an arc of less than `LEAST_ARC`.
     InputError
-        If the radius is not above zero, the path leaves it by more than itself, or the centre has another name.
+        If the radius is not above zero, a path leaves it by more than half of it, or the centre has another name.
 
     Notes
     -----
@@ -121,8 +121,8 @@ def enclosed(paths: Sequence[Path], radius: float, centre: Centre) -> EnclosedPa
     """
     if not (math.isfinite(radius) and radius > 0):
         raise InputError(f"the nominal radius is {radius!r} mm; it must be above zero")
-    if not all(np.all(path.radial > -radius) for path in paths):
-        raise InputError("radial readings are beyond the nominal radius; they must be deviations from it, in mm")
+    if not all(np.all(np.abs(path.radial) < radius / 2) for path in paths):
+        raise InputError("radial readings are of the size of the nominal radius; they must be deviations from it, in mm")
     steps = {"minimum-zone": _minimum_zone_step, "least-squares": _least_squares_step, "set-up": None}
     if centre not in steps:
         raise InputError(f"the centre {centre!r} is not known; choose one of {', '.join(steps)}")

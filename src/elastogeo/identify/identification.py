@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
 from math import isnan
 
 import numpy as np
 
-from elastogeo.errors import DegreesOfFreedomError, RankError, UnsupportedError
+from elastogeo.errors import DegreesOfFreedomError, InputError, RankError, UnsupportedError
 from elastogeo.estimate import (
     Confounding,
     Repeatability,
@@ -30,6 +31,7 @@ from elastogeo.identify.preference import retaining_order
 from elastogeo.identify.result import Identification, Level, Local, Parameter, Pattern, Trace
 from elastogeo.identify.systems import RunSystem, Systems, merged, noise_of, run_systems, same_force
 from elastogeo.identify.verdict import (
+    Check,
     above_resolution,
     conditioned,
     forces_distinct,
@@ -89,7 +91,7 @@ def _identified(test: MachineTest, systems: Systems, found: Confounding) -> Iden
         minimum_norm=dict(zip(found.labels, map(float, minimum_norm(merged(systems.runs))), strict=True)),
         traces=traces,
         levels=tuple(_level(force, systems, traces, solution) for force in systems.levels),
-        local=local_estimates(systems, found.retained, adjacent(systems.levels)),
+        local=_adjacent_estimates(systems, found.retained),
         repeats=_repeats(systems, found.retained),
         patterns=_patterns(test, systems, found),
         rmse=rmse(np.concatenate([t.predicted for t in traces]), np.concatenate([t.measured for t in traces])),
@@ -103,13 +105,14 @@ def _assessed(result: Identification, systems: Systems) -> Identification:
     elastic = any(p.elastic for p in parameters) and all(p.separated for p in parameters)
     if elastic and not systems.references and len(systems.levels) >= LEVELS_FOR_MODELS:
         result = replace(result, models=compare_models(result.test.machine, systems, result.confounding.retained))
+    physics = None
     if elastic:
-        result = replace(result, consistency=consistency_of(result))
+        result, physics = _held_against_physics(result)
     harmonics = {t.run: strongest_harmonic(t.measured - t.predicted, t.pose) for t in result.traces}
     both = len({source.elastic for source in systems.sources}) == 2
     verdict = (
         identifiable(result.confounding),
-        forces_distinct(systems.applied),
+        forces_distinct(systems.applied) if any(source.elastic for source in systems.sources) else None,
         separated(parameters) if both else None,
         conditioned(result.confounding),
         residuals_unstructured(harmonics, result.rmse, result.by_run),
@@ -117,9 +120,18 @@ def _assessed(result: Identification, systems: Systems) -> Identification:
         above_resolution({p.name: abs(p.peak_to_peak) for p in parameters}, result.test.resolution),
         geometry_constant(result.local_change, geometric) if result.local_change and geometric else None,
         model_adequate(result.models) if result.models else None,
-        result.consistency.check if result.consistency else None,
+        physics,
     )
     return replace(result, verdict=tuple(check for check in verdict if check is not None))
+
+
+def _held_against_physics(result: Identification) -> tuple[Identification, Check]:
+    """The result with what physics says of its compliances; a check that could not be made says so and counts as failed."""
+    try:
+        consistency = consistency_of(result)
+    except (InputError, UnsupportedError) as error:
+        return result, Check("physically consistent", False, f"This could not be judged: {error}.")
+    return replace(result, consistency=consistency), consistency.check
 
 
 def with_question(
@@ -208,6 +220,15 @@ def local_estimates(systems: Systems, retained: Sequence[str], choices: Sequence
             solution = replace(solution, covariance=covariance, degrees_of_freedom=np.full(len(retained), freedom))
         spans = np.ptp(strongest.design_of(retained), axis=0) * solution.values
         found.append(Local(tuple(levels), solution, dict(zip(retained, map(float, spans), strict=True))))
+    return tuple(found)
+
+
+def _adjacent_estimates(systems: Systems, retained: Sequence[str]) -> tuple[Local, ...]:
+    """Local estimates from the pairs of adjacent levels that determine the parameters: a pair read one way only may not."""
+    found: list[Local] = []
+    for pair in adjacent(systems.levels):
+        with suppress(RankError, DegreesOfFreedomError):
+            found.extend(local_estimates(systems, retained, [pair]))
     return tuple(found)
 
 

@@ -187,8 +187,7 @@ def consistency(
     """Whether an estimate agrees with symmetric positive semidefinite joint compliances.
 
     Two looks share the level: the distance of the estimate from what physics allows, and the sign of each parameter that
-    cannot be negative. A joint's components that were not asked for restrict nothing, nor does a cross compliance whose
-    mirror was not asked for.
+    cannot be negative. Components that were not asked for restrict nothing, nor does a cross term without its mirror.
 
     Parameters
     ----------
@@ -197,24 +196,19 @@ def consistency(
     found : Confounding
         Of their columns.
     solution : Solution
-        Of the retained parameters. Its covariance counts as known but for one variance, with the least of its degrees of
-        freedom.
+        Of the retained parameters; the covariance counts as known but for one variance, of the least degrees of freedom.
     metric : array, shape (r, r), optional
-        Covariance that measures the distance, where the solution's is all estimated from a few runs and may have no full
-        rank. The signs alone are tested then.
+        Measures the distance where the solution's covariance is all estimated, from few runs; the signs alone decide then.
     level : float
         Probability of a false alarm, at most.
     draws : int
-        If positive, `p_joint` is the least favourable one itself instead of its bound, and `p_projected` is given, by so
-        many Monte Carlo draws each.
+        If positive, `p_joint` is the least favourable one itself, not its bound, and `p_projected` is given: Monte Carlo.
     seed : int
 
     Raises
     ------
     InputError
         If the solution is not of the retained parameters, a source is missing, or the metric is not positive definite.
-    UnsupportedError
-        If the solver is missing.
     """
     if solution.labels != found.retained:
         raise InputError(f"the solution is of {', '.join(solution.labels)}; it must be of {', '.join(found.retained)}")
@@ -225,18 +219,14 @@ def consistency(
     if metric is None:
         p_joint, p_projected = _p_joint(cone, nearest, float(solution.degrees_of_freedom.min()), draws, seed)
     p_negative = _p_negative(cone, solution)
-    holm = _holm(p_negative)
-    p_all = list(holm.values()) if p_joint is None else [p_joint, *holm.values()]
-    looks = 2 if p_joint is not None and p_negative and cone.dimension > 1 else 1
-    p_value = 1.0 if nearest.inside else min(1.0, looks * min(p_all, default=1.0))
-    violated = tuple(name for name, p in holm.items() if looks * p < level)
+    p_value, violated = _both_looks(cone, p_joint, _holm(p_negative), level)
     state = CONSISTENT if nearest.inside else CONTRADICTED if p_value < level else WITHIN_NOISE
     return Consistency(
         state=state,
         constrained=dict(zip(solution.labels, map(float, nearest.values), strict=True)),
         distance=sqrt(nearest.distance_squared),
         dimension=cone.dimension,
-        p_value=p_value,
+        p_value=1.0 if nearest.inside else p_value,
         p_joint=p_joint,
         p_negative=p_negative,
         violated=violated,
@@ -387,6 +377,15 @@ def _holm(p_values: Mapping[str, float]) -> dict[str, float]:
     return adjusted
 
 
+def _both_looks(
+    cone: PsdCone, p_joint: float | None, p_signs: Mapping[str, float], level: float
+) -> tuple[float, tuple[str, ...]]:
+    """The p-value of the joint look and the signs together (Bonferroni), and the signs that are significant in it."""
+    looks = 2 if p_joint is not None and p_signs and cone.dimension > 1 else 1
+    least = min([*p_signs.values(), 1.0 if p_joint is None else p_joint])
+    return min(1.0, looks * least), tuple(name for name, p in p_signs.items() if looks * p < level)
+
+
 def _outward(nearest: Projection, solution: Solution) -> dict[str, float]:
     scaled = nearest.outward / sqrt(nearest.distance_squared)
     return dict(zip(solution.labels, map(float, scaled), strict=True))
@@ -397,7 +396,7 @@ def _sentence(
 ) -> str:
     if state == CONSISTENT:
         return "The estimate is one that symmetric, positive semidefinite joint compliances can give."
-    distance = f"{sqrt(nearest.distance_squared):.2g} standard uncertainties"
+    distance = f"{sqrt(nearest.distance_squared):.3g} standard uncertainties"
     if state == WITHIN_NOISE:
         return (
             f"The estimate is {distance} from what symmetric, positive semidefinite joint compliances can give, which noise "

@@ -10,7 +10,7 @@ from elastogeo.estimate import Repeatability
 from elastogeo.identify import Identification, Parameter
 from elastogeo.report.numbers import DisplayUnit
 from elastogeo.report.style import BLUE, GREY, INK, ORANGE, SMALL, grid
-from elastogeo.report.text import display_units
+from elastogeo.report.text import display_units, label, labels
 
 
 def local_figure(result: Identification) -> Figure:
@@ -28,7 +28,7 @@ def local_figure(result: Identification) -> Figure:
             ax.plot([min(local.forces), max(local.forces)], [value, value], color=BLUE, linewidth=0.8, alpha=0.6)
             ax.plot([middle, middle], [low, high], color=BLUE, linewidth=1.2, marker="_", markersize=5)
             ax.plot([middle], [value], color=BLUE, marker="o", markersize=3.5)
-        _label(ax, parameter.name, unit)
+        _label(ax, label(parameter), unit)
     over = "" if result.reference_force is None else f" over {result.reference_force:g} N"
     figure.supxlabel(f"force{over} (N)", fontsize=8.5)
     return figure
@@ -37,6 +37,7 @@ def local_figure(result: Identification) -> Figure:
 def repeats_figure(result: Identification, repeats: Repeatability) -> Figure:
     """Estimates from every combination of repeated runs, their mean, and its run-level 95 % interval (Figure 4.15)."""
     shown = display_units(result)
+    shown_as = labels(result)
     solution = repeats.solution
     figure, axes = grid(len(solution.labels), 3 if len(solution.labels) != 4 else 2, 1.85)
     number = np.arange(1, len(repeats.combinations) + 1)
@@ -46,7 +47,7 @@ def repeats_figure(result: Identification, repeats: Repeatability) -> Figure:
         ax.axhspan(low, high, color=ORANGE, alpha=0.18, linewidth=0, zorder=0)
         ax.axhline(solution.values[k] * unit.factor, color=ORANGE, linewidth=1.0, linestyle=(0, (5, 2)), zorder=1)
         ax.plot(number, repeats.combinations[:, k] * unit.factor, color=BLUE, marker="o", markersize=2.8, linestyle="")
-        _label(ax, name, unit)
+        _label(ax, shown_as[name], unit)
     figure.supxlabel("combination of one run per level", fontsize=8.5)
     return figure
 

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 from elastogeo.errors import InputError
 
-_EXTRA = ("matplotlib", "jinja2")
+_EXTRA = ("matplotlib", "jinja2", "typst")
 
 
 class MissingExtraError(InputError):
@@ -21,7 +21,7 @@ def needs_report_extra() -> Iterator[None]:
     Raises
     ------
     MissingExtraError
-        If matplotlib or jinja2 is not installed.
+        If matplotlib, jinja2 or typst is not installed.
     """
     try:
         yield

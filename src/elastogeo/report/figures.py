@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from elastogeo.errors import InputError
 from elastogeo.identify import Identification
 from elastogeo.report.extra import needs_report_extra
+from elastogeo.report.findings import diagnosis_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,8 +31,9 @@ def figures(result: Identification) -> dict[str, Figure]:
     Returns
     -------
     dict of str to matplotlib Figure
-        `traces`, `residuals`, `contributions`, `patterns`; `local` if there are two force levels; `repeats` if any level
-        was repeated.
+        `traces`, `residuals`, `contributions`, `patterns`; `separation` if compliance and geometry were both identified and
+        told apart; `diagnosis` if there is geometry to rank; `local` if there are two force levels; `models` if models of
+        the compliance were compared; `budget` if it holds more than the scatter; `repeats` if any level was repeated.
 
     Raises
     ------
@@ -39,11 +41,14 @@ def figures(result: Identification) -> dict[str, Figure]:
         If matplotlib is not installed.
     """
     with needs_report_extra():
-        from elastogeo.report.contributions import contributions_figure
+        from elastogeo.report.contributions import contributions_figure, diagnosis_figure
         from elastogeo.report.estimates import local_figure, repeats_figure
         from elastogeo.report.patterns import patterns_figure
+        from elastogeo.report.separation import has_both, separation_figure
         from elastogeo.report.style import house_style
         from elastogeo.report.traces import residuals_figure, traces_figure
+        from elastogeo.report.uncertainties import budget_figure, has_influences, models_figure
+    diagnosis = diagnosis_of(result)
     with house_style():
         drawn = {
             "traces": traces_figure(result),
@@ -51,8 +56,16 @@ def figures(result: Identification) -> dict[str, Figure]:
             "contributions": contributions_figure(result),
             "patterns": patterns_figure(result),
         }
+        if has_both(result):
+            drawn["separation"] = separation_figure(result)
+        if diagnosis is not None:
+            drawn["diagnosis"] = diagnosis_figure(diagnosis, result)
         if result.local:
             drawn["local"] = local_figure(result)
+        if result.models is not None:
+            drawn["models"] = models_figure(result.models)
+        if has_influences(result):
+            drawn["budget"] = budget_figure(result)
         if result.repeats is not None:
             drawn["repeats"] = repeats_figure(result, result.repeats)
     return drawn
@@ -96,13 +109,13 @@ def save_figures(result: Identification, folder: str | Path, formats: Sequence[s
     return paths
 
 
-def figure_bytes(figure: Figure, kind: str) -> bytes:
-    """A figure as a file of this kind, without date or version in it."""
+def figure_bytes(figure: Figure, kind: str, outlines: bool = False) -> bytes:
+    """A figure as a file of this kind, without date or version in it; with outlines, its SVG needs no font."""
     from elastogeo.report.style import house_style
 
     unsaid = ("Date", "Creator", "Format", "Type") if kind == "svg" else ("Software",)
     buffer = BytesIO()
-    with house_style():
+    with house_style(outlines):
         figure.savefig(buffer, format=kind, dpi=_DPI, metadata=dict.fromkeys(unsaid))
     return buffer.getvalue()
 

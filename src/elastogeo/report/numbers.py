@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from decimal import Decimal
 from math import floor, isfinite, log10
@@ -11,6 +12,7 @@ _PLAIN = (1e-3, 1e6)
 """Magnitudes from the first to below the second are written without an exponent."""
 _SHARPEST = 1e-9
 """A relative uncertainty below this says more of the arithmetic than of the machine; the value keeps ten digits."""
+_LEAST_PROBABILITY, _SURE = 1e-4, 0.1
 
 _PREFIXES = {
     "mm": ((1.0, "mm"), (1e3, "µm"), (1e6, "nm"), (1e9, "pm"), (1e12, "fm")),
@@ -96,6 +98,30 @@ def value_with_uncertainty(value: float, uncertainty: float) -> str:
     place = Decimal(1).scaleb(int(half.as_tuple().exponent))
     number = f"{Decimal(repr(value)).scaleb(-power).quantize(place):f} ± {half:f}"
     return f"({number})e{power:+03d}" if power else number
+
+
+def probability(p_value: float) -> str:
+    """A probability in words of two digits: `0.46`, `0.0012`, `< 0.0001`."""
+    if not isfinite(p_value):
+        return UNKNOWN
+    return "< 0.0001" if p_value < _LEAST_PROBABILITY else significant(p_value, 2) if p_value < _SURE else f"{p_value:.2f}"
+
+
+def pretty(text: str) -> str:
+    """Numbers as they are set in print: a true minus sign, powers of ten."""
+    text = re.sub(r"(?<![\d.])1e([+-])(\d+)", lambda m: f"10{_raised(m[1], m[2])}", text)
+    text = re.sub(r"e([+-])(\d+)", lambda m: f" × 10{_raised(m[1], m[2])}", text)
+    return re.sub(r"(?<![A-Za-z])-(?=[\d ])", "−", text)
+
+
+def micro(text: str) -> str:
+    """A sentence with its `um` as µm."""
+    return re.sub(r"(?<=\d )um\b", "µm", text)
+
+
+def _raised(sign: str, digits: str) -> str:
+    raised = digits.lstrip("0").translate(str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return ("⁻" if sign == "-" else "") + raised
 
 
 def _is_plain(magnitude: float) -> bool:

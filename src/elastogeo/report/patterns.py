@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from elastogeo.identify import Identification, Pattern
+from elastogeo.report.circles import is_angular, ring
 from elastogeo.report.style import BLUE, FAINT, GREY, INK, ORANGE, SMALL, grid, thinned
-from elastogeo.report.traces import is_angular, ring
 
 _NOMINAL, _SWING = 1.0, 0.45
 _EDGE = 1.03
@@ -22,6 +22,7 @@ _COLUMNS, _LINE, _LINES = 4, 24, 3
 def patterns_figure(result: Identification) -> Figure:
     """One small polar plot per group, each scaled to its own size; outward of the nominal circle is positive."""
     patterns = result.patterns
+    named = {p.name: p.separated for p in result.parameters}
     columns = min(_COLUMNS, 3 if len(patterns) in (3, 5, 6, 9) else _COLUMNS)
     figure, axes = grid(len(patterns), columns, 2.15 if columns == _COLUMNS else 2.5)
     for ax, pattern in zip(axes, patterns, strict=True):
@@ -31,7 +32,7 @@ def patterns_figure(result: Identification) -> Figure:
             pose, response = thinned(pattern.pose, pattern.response, _POINTS_AS_OF)
             ax.plot(pose, response, color=BLUE)
             ax.axhline(0, color=GREY, linewidth=0.7)
-        _title(ax, pattern, result.confounding.retained)
+        _title(ax, pattern, named)
     return figure
 
 
@@ -56,9 +57,12 @@ def _around(ax: Axes, pattern: Pattern) -> None:
     ax.set_ylim(-limit, limit)
 
 
-def _title(ax: Axes, pattern: Pattern, retained: tuple[str, ...]) -> None:
-    """The retained name in bold over those that it cannot be told from."""
-    first = next((name for name in pattern.names if name in retained), None)
+def _title(ax: Axes, pattern: Pattern, named: dict[str, bool]) -> None:
+    """The retained name in bold over those that it cannot be told from; all alike if compliance and geometry are mixed."""
+    first = next((name for name in pattern.names if name in named), None)
+    if first is not None and not named[first]:
+        ax.set_title("\n".join(wrap(" or ".join(pattern.names), _LINE)), fontsize=SMALL, color=INK, pad=4)
+        return
     others = [name for name in pattern.names if name != first]
     lines = wrap(", ".join(others), _LINE)
     if len(lines) > _LINES:

@@ -50,7 +50,6 @@ _RC: Any = {
     "lines.solid_capstyle": "round",
     "figure.facecolor": "white",
     "savefig.facecolor": "white",
-    "svg.fonttype": "none",
     "svg.hashsalt": "elastogeo",
 }
 _FORCES = LinearSegmentedColormap.from_list("forces", ["#a6dbe8", "#56a9d6", "#4878b8", "#6c5aa8", "#a0468f"])
@@ -59,9 +58,9 @@ _LOCK = RLock()  # matplotlib's settings are global, and a web application draws
 
 
 @contextmanager
-def house_style() -> Iterator[None]:
-    """Draw and save under the settings of the house."""
-    with _LOCK, rc_context(_RC):
+def house_style(outlines: bool = False) -> Iterator[None]:
+    """Draw and save under the settings of the house; with outlines, letters are drawn and need no font."""
+    with _LOCK, rc_context({**_RC, "svg.fonttype": "path" if outlines else "none"}):
         yield
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from elastogeo.identify import Identification
+from elastogeo.identify import Identification, Parameter
 from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
 
 UM = 1000.0
+UNTOLD = "compliance and geometry, not told apart"
+"""What is said of a parameter that stands for a sum of both: none of its members may be named the cause."""
 _SAME = 1e-6
 """Coefficients this close to one are written without a number."""
 
@@ -19,7 +21,9 @@ class ParameterRow:
 
     Attributes
     ----------
-    name, value, unit : str
+    name : str
+        The combination instead, where compliance and geometry are not told apart: no single name is right then.
+    value, unit : str
         The value is `value ± U`, where U is half the 95 % interval, in `unit`.
     peak_to_peak_um, share_percent : str
         Of its part of the trace at the highest force, with the sign of the value.
@@ -42,7 +46,7 @@ def parameter_rows(result: Identification) -> tuple[ParameterRow, ...]:
     shown = display_units(result)
     return tuple(
         ParameterRow(
-            name=p.name,
+            name=label(p),
             value=value_with_uncertainty(
                 p.value * shown[p.name].factor, (p.interval[1] - p.interval[0]) / 2 * shown[p.name].factor
             ),
@@ -50,18 +54,44 @@ def parameter_rows(result: Identification) -> tuple[ParameterRow, ...]:
             peak_to_peak_um=in_micrometres(p.peak_to_peak),
             share_percent=f"{100 * p.share:.1f}",
             stands_for=combination(p.stands_for),
-            meaning=p.meaning,
+            meaning=p.meaning if p.separated else UNTOLD,
         )
         for p in result.parameters
     )
 
 
+def label(parameter: Parameter) -> str:
+    """What a parameter is shown under: its name, or the whole sum where compliance and geometry are not told apart."""
+    return parameter.name if parameter.separated else combination(parameter.stands_for)
+
+
+def labels(result: Identification) -> dict[str, str]:
+    """What each parameter is shown under, by its name."""
+    return {p.name: label(p) for p in result.parameters}
+
+
+def all_separated(result: Identification) -> bool:
+    """Whether compliance and geometry are told apart in everything that was identified."""
+    return all(p.separated for p in result.parameters)
+
+
 def display_units(result: Identification) -> dict[str, DisplayUnit]:
     """The unit in which each parameter is shown, by its name; parameters of one kind share theirs, to compare."""
+    return shared_units((p.name, p.unit, p.value) for p in result.parameters)
+
+
+def shared_units(values: Iterable[tuple[str, str, float]]) -> dict[str, DisplayUnit]:
+    """The unit to show each of some values in, by name; values of one unit share theirs.
+
+    Parameters
+    ----------
+    values : iterable of (name, unit, value)
+    """
+    values = list(values)
     largest: dict[str, float] = {}
-    for p in result.parameters:
-        largest[p.unit] = max(largest.get(p.unit, 0.0), abs(p.value))
-    return {p.name: display_unit(p.unit, largest[p.unit]) for p in result.parameters}
+    for _, unit, value in values:
+        largest[unit] = max(largest.get(unit, 0.0), abs(value))
+    return {name: display_unit(unit, largest[unit]) for name, unit, _ in values}
 
 
 def combination(terms: Mapping[str, float]) -> str:

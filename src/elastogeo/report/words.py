@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from elastogeo.estimate import Confounding
-from elastogeo.identify import Identification, Parameter
+from elastogeo.identify import SIGNIFICANT, Comparison, Identification, Parameter
+from elastogeo.identify.budget import SCATTER
 from elastogeo.observe import LoadedBallBar, MachineTest
+from elastogeo.report.numbers import micro, probability, significant
+from elastogeo.report.text import all_separated
 
 REPEATABILITY = (
     "Repeatability is not uncertainty: it says how runs of one set-up scatter, not how far all of them are from the truth."
@@ -40,20 +43,97 @@ def confounding_words(found: Confounding) -> list[str]:
     return words
 
 
+def banner(result: Identification) -> list[str]:
+    """What must be said before anything else where compliance and geometry are not told apart; else nothing."""
+    if all_separated(result):
+        return []
+    return [
+        "Compliance and geometry are not told apart. At the forces of this test a soft machine and a crooked one make the same "
+        "trace. What is given below under a sum belongs to the sum: no member of it may be named the cause, and none may be "
+        "corrected on the ground of this test.",
+        "What to do: repeat the test at a second, clearly different force, and ask again.",
+    ]
+
+
+def uncertainty_words(result: Identification) -> list[str]:
+    """What the uncertainties count on, and what is in them."""
+    if result.by_run:
+        ratios = result.solution.standard_uncertainty / result.naive.standard_uncertainty
+        words = [
+            f"The uncertainties come from the scatter of {len(result.traces)} runs, each of which counts once, however many "
+            f"readings it has. They are {significant(float(ratios.min()), 2)} to {significant(float(ratios.max()), 2)} times "
+            f"those that would count on independent readings: readings along one trace share its errors."
+        ]
+    else:
+        checked = next((check.sentence for check in result.verdict if check.name == "uncertainty by run"), None)
+        words = [micro(checked or "The uncertainties count on independent readings; those along a trace rarely are.")]
+    stated = influences(result)
+    if stated:
+        return [*words, f"The budget also holds what the test's file states as known: {listed(stated)}."]
+    return [*words, "The test's file states no systematic influence ([[influences]]), so that none is in the budget."]
+
+
+def influences(result: Identification) -> list[str]:
+    """The systematic influences of the budget, by their labels."""
+    return sorted({line.label for lines in result.budget.lines for line in lines} - {SCATTER})
+
+
+def change_words(result: Identification) -> list[str]:
+    """Whether the local estimates, the geometry above all, change with the force by more than their uncertainty."""
+    change = result.local_change
+    if change is None:
+        why = (
+            "a reference level is taken off"
+            if result.reference_force is not None
+            else "it takes three force levels and runs that leave something over"
+        )
+        return [f"Whether they differ by more than their uncertainty was not tested: {why}."]
+    p_value = probability(change.p_value)
+    words = [
+        f"All differences together: p = {p_value}. That is how often differences as great would come about if nothing "
+        f"changed, so {'something does change with the force' if change.significant else 'no change has been shown'}."
+    ]
+    geometric = [p.name for p in result.parameters if not p.elastic and p.name in change.each]
+    if geometric and all_separated(result):
+        words.append(_geometry_words(change.each, geometric))
+    return words
+
+
+def models_words(models: Comparison) -> list[str]:
+    """What decides between models, and what does not."""
+    found = next(model for model in models.models if model.name == models.supported)
+    exponent = "" if found.exponent is None else f" (exponent {found.exponent:.2f})"
+    words = [
+        f"The data support a {found.name} compliance{exponent}. What decides is how well a model predicts force levels that it "
+        f"has not seen: the richer model must be better there, surely (95 % over the levels) and by a gain worth having."
+    ]
+    if any(model.left_out_level is None for model in models.models):
+        words.append("Where an error at left-out runs or levels is missing, the others do not determine that model.")
+    words.append(
+        "F-test and BIC are against the first model and count on independent readings. Readings along a trace are not "
+        "independent, so both take structure for evidence and favour rich models: they do not decide."
+    )
+    return words
+
+
 def keep_in_mind(result: Identification) -> list[str]:
     """The limits of what was found, in sentences."""
-    named = [p.name for p in result.parameters]
-    words = [
-        "The intervals hold what scatters from reading to reading, independently, and no more. What is the same in all "
-        "readings (the force calibration, the instrument's scale, the set-up, the temperature) is not in them.",
-        REPEATABILITY,
-    ]
-    if any(len(p.stands_for) > 1 for p in result.parameters):
+    named = [p.name for p in result.parameters if p.separated]
+    scatter = "run to run" if result.by_run else "reading to reading, independently"
+    stated = influences(result)
+    held = (
+        f"The intervals hold what scatters from {scatter}, and {listed(stated)}. Any other influence that is the same in all "
+        f"readings is not in them."
+        if stated
+        else f"The intervals hold what scatters from {scatter}, and no more. What is the same in all readings (the force "
+        f"calibration, the instrument's scale, the set-up, the temperature) is not in them."
+    )
+    words = [held, REPEATABILITY]
+    if any(len(p.stands_for) > 1 and p.elastic and p.separated for p in result.parameters):
         words.append("Compliances here are equivalent ones: each is the sum of what it stands for, not of one joint alone.")
     if structured(result):
         words.append(
-            "The residuals have structure: where the model misses, its structure decides, not its size. "
-            "The true uncertainty is larger than the intervals say."
+            f"The residuals have structure: where the model misses, its structure decides, not its size. {TRULY_LARGER}"
         )
     words += [_negative(p) for p in result.parameters if _impossible(p)]
     gains = [name for name in named if _GAIN.fullmatch(name)]
@@ -68,9 +148,16 @@ def keep_in_mind(result: Identification) -> list[str]:
     return words + assumptions(result.test)
 
 
-def structured(result: Identification) -> bool:
-    """Whether the residuals have structure left, so that the intervals claim too much."""
-    return any(check.name == "residuals without structure" and not check.passed for check in result.verdict)
+def structure_words(result: Identification) -> list[str]:
+    """What residuals with structure mean for the uncertainty; nothing if they look like noise."""
+    if not any(check.name == "residuals without structure" and not check.passed for check in result.verdict):
+        return []
+    if result.by_run:
+        return [
+            "The residuals have structure (see the verdict). U covers what of it differs from run to run; what is the same in "
+            "all runs shifts the values and is not in U."
+        ]
+    return ["The true uncertainty is larger than U: the residuals have structure (see the verdict), which U does not cover."]
 
 
 def assumptions(test: MachineTest) -> list[str]:
@@ -79,15 +166,51 @@ def assumptions(test: MachineTest) -> list[str]:
     return [f"Assumed, not measured, of the machine: {assumed}."] if assumed else []
 
 
+def repeats_words(result: Identification) -> list[str]:
+    """What the repeats are, and what their numbers are not."""
+    if result.repeats is None:
+        return []
+    counts = listed([f"{count} runs at {level}" for level, count in result.repeats.runs.items()])
+    words = [f"{counts}. {REPEATABILITY}"]
+    if result.reference_force is not None:
+        words.append(
+            f"The readings at {result.reference_force:g} N are subtracted from all runs, so the scatter of that reference is in "
+            f"every one of them alike and is not contained here."
+        )
+    number = len(result.repeats.combinations)
+    return [
+        *words,
+        f"The {number} combinations of one run per level share runs and are not independent. Their standard deviation is about "
+        f"that of one combination; dividing it by the root of {number} would claim far too much. The standard uncertainty "
+        f"given here comes from the scatter of the runs, with Welch-Satterthwaite degrees of freedom.",
+    ]
+
+
 def listed(names: Iterable[str]) -> str:
     """Names in a sentence: `C_XXX, C_XYX and C_YYY`."""
     *first, last = names
     return f"{', '.join(first)} and {last}" if first else last
 
 
+def _geometry_words(each: Mapping[str, float], geometric: list[str]) -> str:
+    moved = [name for name in geometric if each[name] < SIGNIFICANT / len(geometric)]
+    if not moved:
+        least = min(geometric, key=lambda name: each[name])
+        return (
+            f"The geometry is the same at all forces within its uncertainty: the parameter that differs most, {least}, has p = "
+            f"{probability(each[least])}. Close force levels couple compliance and geometry strongly; a drift within the "
+            f"intervals says nothing of the machine."
+        )
+    return (
+        f"{listed(moved)} {'changes' if len(moved) == 1 else 'change'} with the force by more than the uncertainty (p = "
+        f"{probability(min(each[name] for name in moved))}). Geometry cannot do that: the compliance model is too simple, and "
+        f"geometry is made to explain what it leaves."
+    )
+
+
 def _impossible(p: Parameter) -> bool:
     """Whether it is negative though a sum of on-axis compliances cannot be: a load never gains energy."""
-    return p.value < 0 and all(_ON_AXIS.fullmatch(name) and c > 0 for name, c in p.stands_for.items())
+    return p.separated and p.value < 0 and all(_ON_AXIS.fullmatch(name) and c > 0 for name, c in p.stands_for.items())
 
 
 def _negative(p: Parameter) -> str:

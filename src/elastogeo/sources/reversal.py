@@ -19,8 +19,8 @@ from elastogeo.sources.source import Source, twist_unit
 SPIKE_LENGTH = 0.1
 """Travel [mm or degrees] after a reversal in which its spike falls to 37 %."""
 
-_NEAR_TURN = 0.02
-"""How near to the end of its motion, as a share of it, an axis must be read on both ways for a reversal to be there."""
+FADED = 10.0
+"""After so many lengths a spike is over: an arc that begins later has none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,20 +36,22 @@ class Lag:
 
 @dataclass(frozen=True, slots=True)
 class AfterReversal:
-    """Driver: minus the sense of the motion, dying away with the travel since the axis turned back."""
+    """Driver: minus the sense of the motion, dying away with the travel since the axis turned back.
+
+    So near a turn the acceleration is as good as constant, and the travel is `v^2 / (2 a)`: what a reading says by itself,
+    wherever in the run, or in its arc, it stands.
+    """
 
     axis: str
     length: float
 
     def __call__(self, situation: Situation) -> Array:
-        """Values between -1 and 1 at every reading, shape (m,); 0 where no reversal lies before."""
-        at, sense = situation.command(self.axis), situation.sense(self.axis)
-        spike = np.zeros(len(at))
-        for end, leaving in ((at.min(), 1.0), (at.max(), -1.0)):
-            near = np.abs(at - end) < _NEAR_TURN * np.ptp(at)
-            if {-1.0, 1.0} <= set(sense[near]):
-                away = sense == leaving
-                spike[away] = -leaving * np.exp(-np.abs(at[away] - end) / self.length)
+        """Values between -1 and 1 at every reading, shape (m,); 0 where the axis slows down, or has long turned."""
+        sense, acceleration = situation.sense(self.axis), situation.acceleration(self.axis)
+        to_speed = situation.velocity(self.axis) ** 2 / 2
+        after = (sense * acceleration > 0) & (to_speed < FADED * self.length * np.abs(acceleration))
+        spike = np.zeros(len(sense))
+        spike[after] = -sense[after] * np.exp(-to_speed[after] / np.abs(acceleration[after]) / self.length)
         return spike
 
 

@@ -1,0 +1,45 @@
+"""`elastogeo diagnose`: a ball bar test's faults, ranked."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from elastogeo.cli.options import AsJson, Parameters, Reference, TestPath, refuse_if
+
+
+def diagnose(
+    test: TestPath,
+    parameters: Parameters = None,
+    reference: Reference = None,
+    significant: Annotated[
+        bool, typer.Option("--significant", help="Show only faults whose interval excludes zero.")
+    ] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Rank the faults of a ball bar test.
+
+    Asks for backlash, play, squareness, gains, straightness, cyclic, servo and reversal errors where the test asks for
+    nothing of its own. Says what could not be told apart, and gives the ISO 230-4 parameters of the traces.
+
+    \b
+    Example:
+      elastogeo diagnose my-test -p ball-bar-xy
+    """
+    from elastogeo.cli import screen
+    from elastogeo.formats import read_test
+    from elastogeo.identify import diagnose as diagnosed
+    from elastogeo.identify import identify, with_question
+    from elastogeo.report import diagnosis_json
+
+    with screen.progress("reading the runs", quiet=as_json) as step:
+        asked = with_question(read_test(test), parameters, None, reference)
+        step("identifying")
+        result = identify(asked)
+        diagnosis = diagnosed(result)
+    if as_json:
+        screen.show_json(diagnosis_json(diagnosis, result))
+    else:
+        screen.show_diagnosis(diagnosis, result, significant)
+    refuse_if(result.verdict)

@@ -1,0 +1,291 @@
+"""What a report says, ready to print: strings, lists and dicts only. The page and the PDF show the same."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict
+from math import isfinite
+from typing import Any
+
+from elastogeo import __version__
+from elastogeo.estimate import Repeatability
+from elastogeo.identify import CONDITION_LIMIT, Circularity, Comparison, Consistency, Diagnosis, Identification
+from elastogeo.observe import LoadedBallBar
+from elastogeo.report.as_json.envelope import instrument_name
+from elastogeo.report.findings import diagnosis_of, diagnosis_rows
+from elastogeo.report.numbers import micro, pretty, probability, significant, value_with_uncertainty, written_unit
+from elastogeo.report.text import (
+    UM,
+    all_separated,
+    combination,
+    display_units,
+    in_micrometres,
+    label,
+    labels,
+    parameter_rows,
+)
+from elastogeo.report.words import (
+    banner,
+    change_words,
+    confounding_words,
+    influences,
+    keep_in_mind,
+    models_words,
+    repeats_words,
+    structure_words,
+    uncertainty_words,
+)
+
+Context = dict[str, Any]
+_MINUTE = 60.0
+_MANY = 1000.0
+"""Degrees of freedom above this are as good as infinite."""
+_NOTHING = 1e-4
+"""A contribution below this part of the whole is printed as nothing."""
+
+
+def report_context(result: Identification) -> Context:
+    """All that a report says of a result, but the figures."""
+    test, found = result.test, result.confounding
+    strongest = max(result.levels, key=lambda level: abs(level.force))
+    diagnosis = diagnosis_of(result)
+    return {
+        "version": __version__,
+        "test": {"name": test.name, "machine": test.machine.name, "simulated": test.simulated},
+        "facts": facts(result),
+        "banner": banner(result),
+        "sums": [pretty(label(p)) for p in result.parameters if not p.separated],
+        "verdict": [{"name": c.name, "passed": c.passed, "sentence": micro(c.sentence)} for c in result.verdict],
+        "headline": _headline(sum(not check.passed for check in result.verdict), len(result.verdict)),
+        "brief": _brief(result),
+        "rows": _printed(parameter_rows(result)),
+        "units": pretty("; ".join(_unit_notes(result))),
+        "by_run": result.by_run,
+        "structure": structure_words(result),
+        "highest_force": f"{strongest.force:g}",
+        "reference": None if result.reference_force is None else f"{result.reference_force:g}",
+        "repeated": len(result.traces) > len(result.levels),
+        "uncertainty": uncertainty_words(result),
+        "uncertainties": _uncertainties(result),
+        "budgets": _budgets(result) if influences(result) else [],
+        "levels": _levels(result),
+        "both": all_separated(result) and {p.elastic for p in result.parameters if p.axis} == {True, False},
+        "models": None if result.models is None else _models(result.models),
+        "change": [pretty(sentence) for sentence in change_words(result)],
+        "consistency": None if result.consistency is None else _consistency(result, result.consistency),
+        "diagnosis": None if diagnosis is None else _diagnosis(diagnosis, result),
+        "repeats": None if result.repeats is None else _repeats(result, result.repeats),
+        "all_told": found.rank == len(found.labels),
+        "confounding": confounding_words(found),
+        "groups": _groups(result),
+        "keep_in_mind": keep_in_mind(result),
+    }
+
+
+def facts(result: Identification) -> list[tuple[str, str]]:
+    """What was tested and how, as labelled lines."""
+    test, setup = result.test, result.test.setup
+    machine = "" if test.machine.name == test.machine.topology.compact else f"{test.machine.name}, "
+    lines = [
+        ("Machine", f"{machine}{test.machine.topology.compact} {test.machine.topology.iso}"),
+        ("Instrument", instrument_name(test).replace("-", " ")),
+    ]
+    if isinstance(setup, LoadedBallBar):
+        plane = f"plane {setup.circle.plane}" if isinstance(setup.circle.plane, str) else "a tilted plane"
+        lines.append(("Path", f"circle, {plane}, radius {setup.circle.radius:g} mm, {setup.feed * _MINUTE:g} mm/min"))
+    readings = sum(len(next(iter(run.columns.values()))) for run in test.runs)
+    lines.append(("Runs", f"{len(test.runs)}, with {readings} readings"))
+    forces = ", ".join(f"{level.force:g}" for level in result.levels)
+    if result.reference_force is None:
+        lines.append(("Force", f"{forces} N"))
+    else:
+        lines.append(("Force", f"{forces} N over the reference of {result.reference_force:g} N, which is taken off"))
+    resolution = "not given" if test.resolution is None else f"{in_micrometres(test.resolution)} µm"
+    return [*lines, ("Resolution", resolution), ("Asked for", ", ".join(test.question.parameters))]
+
+
+def _headline(failed: int, count: int) -> str:
+    if not failed:
+        return f"All {count} checks passed."
+    points = "One point needs" if failed == 1 else f"{failed} points need"
+    return f"{points} attention; {count - failed} of {count} checks passed."
+
+
+def _brief(result: Identification) -> list[tuple[str, str]]:
+    top = max(result.parameters, key=lambda p: p.share)
+    strongest = max(result.levels, key=lambda level: abs(level.force))
+    found = result.confounding
+    lines = [
+        (
+            "Largest contribution",
+            f"{label(top)}: {in_micrometres(top.peak_to_peak)} µm peak to peak, share {100 * top.share:.0f} %",
+        ),
+        (
+            "Fit",
+            f"RMSE {in_micrometres(result.rmse)} µm overall; fitness {significant(strongest.fitness)} % "
+            f"at {strongest.force:g} N",
+        ),
+        ("Told apart", f"{found.rank} of {len(found.labels)} parameters or combinations"),
+        (
+            "Condition number",
+            f"{significant(found.condition_scaled)} scaled (limit {CONDITION_LIMIT:g}); {significant(found.condition_raw)} raw",
+        ),
+    ]
+    return [(what, pretty(text)) for what, text in lines]
+
+
+def _printed(rows: Iterable[Any]) -> list[dict[str, str]]:
+    """Formatted rows as they are set in print."""
+    words = {"meaning", "also"}
+    return [{key: text if key in words else pretty(text) for key, text in asdict(row).items()} for row in rows]
+
+
+def _unit_notes(result: Identification) -> list[str]:
+    """Each shown unit in those of the house."""
+    by_name = display_units(result)
+    notes = {
+        f"1 {by_name[p.name].name} = {significant(1 / by_name[p.name].factor, 1)} {written_unit(p.unit)}": None
+        for p in result.parameters
+        if by_name[p.name].factor != 1
+    }
+    return list(notes)
+
+
+def _uncertainties(result: Identification) -> list[tuple[str, str, str, str, str]]:
+    """For each parameter: name, standard uncertainty, unit, degrees of freedom, the one that counts on single readings."""
+    units = display_units(result)
+    return [
+        (
+            pretty(label(p)),
+            pretty(significant(p.standard_uncertainty * units[p.name].factor, 2)),
+            units[p.name].name,
+            _degrees(float(result.budget.degrees_of_freedom[k])),
+            pretty(significant(float(result.naive.standard_uncertainty[k]) * units[p.name].factor, 2)),
+        )
+        for k, p in enumerate(result.parameters)
+    ]
+
+
+def _budgets(result: Identification) -> list[Context]:
+    """The sorted budget of each parameter."""
+    units = display_units(result)
+    budgets = []
+    for k, p in enumerate(result.parameters):
+        whole, factor = p.standard_uncertainty, units[p.name].factor
+        lines = [
+            {
+                "label": line.label,
+                "type": "B" if line.type_b else "A",
+                "distribution": line.distribution,
+                "degrees": _degrees(line.degrees_of_freedom),
+                "contribution": "≈ 0"
+                if line.contribution < _NOTHING * whole
+                else pretty(significant(line.contribution * factor, 2)),
+                "share": f"{100 * (line.contribution / whole) ** 2 if whole else 0:.1f}",
+            }
+            for line in result.budget.lines[k]
+        ]
+        budgets.append(
+            {
+                "name": pretty(label(p)),
+                "unit": units[p.name].name,
+                "uncertainty": pretty(significant(whole * factor, 2)),
+                "degrees": _degrees(float(result.budget.degrees_of_freedom[k])),
+                "lines": lines,
+            }
+        )
+    return budgets
+
+
+def _degrees(freedom: float) -> str:
+    return "∞" if not isfinite(freedom) or freedom > _MANY else significant(freedom, 2)
+
+
+def _levels(result: Identification) -> list[list[str]]:
+    return [
+        [
+            f"{level.force:g}",
+            str(level.readings),
+            in_micrometres(level.rmse),
+            significant(level.fitness, 4),
+            *(pretty(f"{in_micrometres(low)} to {in_micrometres(high)}") for low, high in (level.elastic, level.geometric)),
+        ]
+        for level in result.levels
+    ]
+
+
+def _models(models: Comparison) -> Context:
+    rows = [
+        {
+            "name": model.name,
+            "supported": model.name == models.supported,
+            "parameters": str(len(model.labels)),
+            "rmse": in_micrometres(model.rmse),
+            "runs": "–" if model.left_out_run is None else in_micrometres(model.left_out_run),
+            "levels": "–" if model.left_out_level is None else in_micrometres(model.left_out_level),
+            "fitness": f"{min(model.fitness.values()):.1f} to {max(model.fitness.values()):.1f}",
+            "p_value": "–" if model.p_value is None else pretty(probability(model.p_value)),
+            "bic": pretty(f"{model.bic:.0f}"),
+            "exponent": "" if model.exponent is None else f"exponent {model.exponent:.2f}",
+        }
+        for model in models.models
+    ]
+    return {"rows": rows, "words": models_words(models)}
+
+
+def _consistency(result: Identification, found: Consistency) -> Context:
+    units = display_units(result)
+    rows = []
+    for p in result.parameters:
+        nearest, factor = found.constrained.get(p.name, p.value), units[p.name].factor
+        if p.elastic and abs(nearest - p.value) > _NOTHING * p.standard_uncertainty:
+            half = (p.interval[1] - p.interval[0]) / 2
+            free = pretty(value_with_uncertainty(p.value * factor, half * factor))
+            rows.append((p.name, free, pretty(significant(nearest * factor)), units[p.name].name))
+    return {"sentence": pretty(found.sentence), "rows": rows}
+
+
+def _diagnosis(diagnosis: Diagnosis, result: Identification) -> Context:
+    words = "The set-up comes last: it is no fault of the machine and has no share."
+    return {
+        "rows": _printed(diagnosis_rows(diagnosis, result)),
+        "words": words if any(not fault.axis for fault in diagnosis.faults) else "",
+        "circularity": [_circularity(force, found) for force, found in diagnosis.circularity.items()],
+    }
+
+
+def _circularity(force: float, found: Circularity) -> list[str]:
+    shown = (found.g_ccw, found.g_cw, found.g_bidirectional, found.mean_radial)
+    spans = ((found.f_min_ccw, found.f_max_ccw), (found.f_min_cw, found.f_max_cw))
+    return [
+        f"{force:g}",
+        *("–" if value is None else pretty(significant(value * UM)) for value in shown),
+        *(
+            "–" if low is None or high is None else pretty(f"{significant(low * UM)} to {significant(high * UM)}")
+            for low, high in spans
+        ),
+    ]
+
+
+def _groups(result: Identification) -> list[tuple[str, str]]:
+    """Each retained name and the sum it stands for; a sum of compliance and geometry goes under no name."""
+    return [
+        (p.name if p.separated else "only the sum is known", pretty(combination(p.stands_for)))
+        for p in result.parameters
+        if len(p.stands_for) > 1
+    ]
+
+
+def _repeats(result: Identification, repeats: Repeatability) -> Context:
+    units, shown = display_units(result), labels(result)
+    solution, bounds = repeats.solution, repeats.solution.interval()
+    rows = []
+    for k, name in enumerate(solution.labels):
+        unit, value = units[name], float(solution.values[k])
+        half = float(bounds[k, 1] - value) * unit.factor
+        spread = (float(solution.standard_uncertainty[k]), float(repeats.combination_std[k]))
+        uncertainty, deviation = (pretty(significant(size * unit.factor, 2)) for size in spread)
+        estimate = pretty(value_with_uncertainty(value * unit.factor, half))
+        freedom = _degrees(float(solution.degrees_of_freedom[k]))
+        rows.append((pretty(shown[name]), estimate, unit.name, uncertainty, freedom, deviation))
+    return {"rows": rows, "words": repeats_words(result)}
