@@ -1,33 +1,60 @@
-"""Figures and documents from frozen results: JSON, figures, one self-contained HTML page. It computes nothing new.
+"""Figures and documents from frozen results: JSON, figures, one self-contained HTML page, a PDF. It computes nothing new.
 
-Stands on `identify` and all rooms below. matplotlib and jinja2 (the extra `elastogeo[report]`) are imported only when
-something is drawn or a page is written: importing this room, JSON and the formatting of numbers need neither.
+Stands on `identify` and all rooms below. matplotlib, jinja2 and typst (the extra `elastogeo[report]`) are imported only when
+something is drawn or a page is written: importing this room, JSON and the formatting of numbers need none of them.
 """
 
 from elastogeo.report.as_json import (
+    COMPARISON_SCHEMA,
     CONFOUNDING_SCHEMA,
+    DIAGNOSIS_SCHEMA,
     IDENTIFICATION_SCHEMA,
     MACHINE_SCHEMA,
+    WHAT_IF_SCHEMA,
+    comparison_json,
     confounding_json,
+    diagnosis_json,
     identification_json,
     machine_json,
+    what_if_json,
 )
 from elastogeo.report.extra import MissingExtraError
 from elastogeo.report.figures import FORMATS, figures, save_figures
+from elastogeo.report.findings import (
+    ComparisonRow,
+    DiagnosisRow,
+    WhatIfRow,
+    comparison_rows,
+    diagnosis_of,
+    diagnosis_rows,
+    what_if_rows,
+)
 from elastogeo.report.html import html_report, save_html
 from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
+from elastogeo.report.pdf import pdf_report, save_pdf
 from elastogeo.report.text import ParameterRow, combination, display_units, in_micrometres, parameter_rows
 
 __all__ = [
+    "COMPARISON_SCHEMA",
     "CONFOUNDING_SCHEMA",
+    "DIAGNOSIS_SCHEMA",
     "FORMATS",
     "IDENTIFICATION_SCHEMA",
     "MACHINE_SCHEMA",
+    "WHAT_IF_SCHEMA",
+    "ComparisonRow",
+    "DiagnosisRow",
     "DisplayUnit",
     "MissingExtraError",
     "ParameterRow",
+    "WhatIfRow",
     "combination",
+    "comparison_json",
+    "comparison_rows",
     "confounding_json",
+    "diagnosis_json",
+    "diagnosis_of",
+    "diagnosis_rows",
     "display_unit",
     "display_units",
     "figures",
@@ -36,8 +63,12 @@ __all__ = [
     "in_micrometres",
     "machine_json",
     "parameter_rows",
+    "pdf_report",
     "save_figures",
     "save_html",
+    "save_pdf",
     "significant",
     "value_with_uncertainty",
+    "what_if_json",
+    "what_if_rows",
 ]

@@ -48,7 +48,7 @@ def report_context(result: Identification) -> Context:
     """All that a report says of a result, but the figures."""
     test, found = result.test, result.confounding
     strongest = max(result.levels, key=lambda level: abs(level.force))
-    diagnosis = diagnosis_of(result)
+    diagnosis, levels = diagnosis_of(result), _levels(result)
     return {
         "version": __version__,
         "test": {"name": test.name, "machine": test.machine.name, "simulated": test.simulated},
@@ -68,7 +68,8 @@ def report_context(result: Identification) -> Context:
         "uncertainty": uncertainty_words(result),
         "uncertainties": _uncertainties(result),
         "budgets": _budgets(result) if influences(result) else [],
-        "levels": _levels(result),
+        "levels": levels,
+        "fits": [level[:4] for level in levels],
         "both": all_separated(result) and {p.elastic for p in result.parameters if p.axis} == {True, False},
         "models": None if result.models is None else _models(result.models),
         "change": [pretty(sentence) for sentence in change_words(result)],
@@ -247,8 +248,9 @@ def _consistency(result: Identification, found: Consistency) -> Context:
 
 def _diagnosis(diagnosis: Diagnosis, result: Identification) -> Context:
     words = "The set-up comes last: it is no fault of the machine and has no share."
+    shown = ("rank", "meaning", "axis", "value", "unit", "distortion_um", "share_percent", "also")
     return {
-        "rows": _printed(diagnosis_rows(diagnosis, result)),
+        "table": [[row[key] for key in shown] for row in _printed(diagnosis_rows(diagnosis, result))],
         "words": words if any(not fault.axis for fault in diagnosis.faults) else "",
         "circularity": [_circularity(force, found) for force, found in diagnosis.circularity.items()],
     }

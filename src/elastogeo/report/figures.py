@@ -18,6 +18,19 @@ if TYPE_CHECKING:
 
 FORMATS = ("svg", "png")
 """Formats that figures are saved in."""
+ALTERNATIVES = {
+    "traces": "Measured and predicted traces of every force level around the nominal circle",
+    "residuals": "Measured minus predicted readings of every force level",
+    "contributions": "Contribution of each parameter to the trace, in micrometres, with its interval",
+    "patterns": "Response pattern of each group of parameters",
+    "separation": "What compliance and geometry together, compliance alone and geometry alone do to the trace",
+    "diagnosis": "Distortion of the trace by each fault, in micrometres, with its interval",
+    "local": "Local estimates with their intervals against the global estimate",
+    "models": "Error of each model over all readings, at left-out runs and at left-out force levels",
+    "budget": "Share of each influence in the variance of each parameter",
+    "repeats": "Estimates from every combination of repeated runs",
+}
+"""What each figure shows, for those who cannot see it."""
 _DPI = 200
 
 
