@@ -167,10 +167,10 @@ def test_the_tolerance_is_relative_and_stated() -> None:
     assert confounding(factor_of(1e9 * design), tolerance=1e-5).rank == 1
 
 
-def test_rounding_error_is_null_only_beside_a_column_of_its_kind() -> None:
+def test_rounding_error_is_null_beside_what_the_column_could_be() -> None:
     design = np.array([[1.0, 1e-15, 2e-13], [2.0, 0.0, 1e-13], [3.0, 1e-15, 0.0]])
-    assert confounding(factor_of(design), kinds=["mm", "mm", "rad"]).null == ("b",)
-    assert confounding(factor_of(design), kinds=["mm", "rad", "rad"]).null == ()
+    assert confounding(factor_of(design), ceilings=np.array([4.0, 4.0, 1e-12])).null == ("b",)
+    assert confounding(factor_of(design), ceilings=np.array([4.0, 1e-12, 1e-12])).null == ()
     assert confounding(factor_of(design)).null == ()
 
 

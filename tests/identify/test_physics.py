@@ -56,7 +56,7 @@ def planar(make_test: MakeTest) -> tuple[tuple[Source, ...], Confounding]:
     """The 18 planar compliances of the thesis's circle, and what it tells apart of them."""
     test = make_test("wFYXt", [100.0])
     systems = systems_of(test)
-    found = confounding(merged(systems.runs), SIX, kinds=[source.unit for source in systems.sources])
+    found = confounding(merged(systems.runs), SIX, systems.ceilings)
     assert found.retained == SIX
     return systems.sources, found
 
@@ -319,5 +319,5 @@ def _state_of(
         read.append(run.with_reading(reading + 1e-6 * random.standard_normal(len(run))))
     systems = run_systems(sources, test.machine, read)
     factor = merged(systems.runs)
-    found = confounding(factor, kinds=[source.unit for source in sources])
+    found = confounding(factor, systems.ceilings)
     return consistency(sources, found, solve(factor, found.retained)).state

@@ -10,7 +10,15 @@ import numpy as np
 import pytest
 
 import elastogeo
-from elastogeo.report import confounding_json, identification_json, machine_json
+from elastogeo.identify import compare_tests, diagnose, what_if
+from elastogeo.report import (
+    comparison_json,
+    confounding_json,
+    diagnosis_json,
+    identification_json,
+    machine_json,
+    what_if_json,
+)
 
 KEYS = {
     "schema",
@@ -29,6 +37,10 @@ KEYS = {
     "repeats",
     "minimum_norm",
     "verdict",
+    "by_run",
+    "local_change",
+    "models",
+    "consistency",
 }
 PARAMETER_KEYS = {
     "name",
@@ -40,6 +52,12 @@ PARAMETER_KEYS = {
     "peak_to_peak_um",
     "share",
     "meaning",
+    "axis",
+    "elastic",
+    "separated",
+    "degrees_of_freedom",
+    "naive_standard_uncertainty",
+    "budget",
 }
 
 
@@ -48,7 +66,7 @@ def types_in(value: object) -> set[type]:
     return {type(value)}.union(*(types_in(item) for item in inside))
 
 
-@pytest.mark.parametrize("name", ["rich", "poor", "geometric"])
+@pytest.mark.parametrize("name", ["rich", "poor", "geometric", "separated", "mixed"])
 def test_keys_and_plain_types(name, request) -> None:
     document = identification_json(request.getfixturevalue(name))
     assert set(document) == KEYS
@@ -86,6 +104,7 @@ def test_numbers_are_those_of_the_result(rich) -> None:
     assert document["local"][0]["forces_N"] == [76, 202]
     assert document["local"][0]["values"][0]["value"] == rich.local[0].solution.values[0]
     assert [check["passed"] for check in document["verdict"]] == [check.passed for check in rich.verdict]
+    assert {frozenset(check) for check in document["verdict"]} == {frozenset({"name", "passed", "sentence", "decisive"})}
 
 
 def test_negative_parameters_have_a_negative_peak_to_peak(rich) -> None:
@@ -100,7 +119,7 @@ def test_repeats(rich, poor) -> None:
     assert repeats["combinations"] == 9
     assert repeats["combination_std"]["C_XXX"] == rich.repeats.combination_std[0]
     assert repeats["standard_uncertainty"]["C_XXX"] == rich.repeats.solution.standard_uncertainty[0]
-    assert 2 <= repeats["degrees_of_freedom"]["C_XXX"] <= 4
+    assert 2 <= repeats["degrees_of_freedom"]["C_XXX"] <= 8
     assert "not independent" in repeats["note"]
     assert "reference" in repeats["note"]
 
@@ -138,6 +157,109 @@ def test_machine(make_machine) -> None:
     assert document["axes"][0]["travel_unit"] == "rad"
     assert document["axes"][2]["travel"] == [None, None]
     assert json.loads(json.dumps(document, allow_nan=False)) == document
+
+
+def strict(document: dict) -> None:
+    assert types_in(document) <= {dict, list, str, int, float, bool, type(None)}
+    assert json.loads(json.dumps(document, allow_nan=False)) == document
+
+
+def test_the_budget_goes_with_every_parameter(separated) -> None:
+    document = identification_json(separated)
+    assert document["by_run"] is True
+    for k, (entry, parameter) in enumerate(zip(document["parameters"], separated.parameters, strict=True)):
+        sizes = [line["contribution"] for line in entry["budget"]]
+        assert sizes == sorted(sizes, reverse=True)
+        assert np.hypot.reduce(sizes) == pytest.approx(parameter.standard_uncertainty)
+        by_label = {line["label"]: line for line in entry["budget"]}
+        assert by_label["scatter of the readings"]["type"] == "A"
+        assert by_label["form of the balls"] == {
+            "label": "form of the balls",
+            "type": "B",
+            "distribution": "rectangular",
+            "degrees_of_freedom": None,
+            "contribution": by_label["form of the balls"]["contribution"],
+        }
+        assert entry["naive_standard_uncertainty"] == separated.naive.standard_uncertainty[k]
+
+
+def test_what_models_forces_and_physics_say(separated, poor) -> None:
+    document = identification_json(separated)
+    assert document["models"]["supported"] == separated.models.supported
+    first = document["models"]["models"][0]
+    assert first["p_value"] is None
+    assert first["left_out_level_um"] == 1000 * separated.models.models[0].left_out_level
+    assert document["local_change"]["p_value"] == separated.local_change.p_value
+    assert document["consistency"]["sentence"] == separated.consistency.sentence
+    assert document["levels"][-1]["elastic_um"] == [1000 * bound for bound in separated.levels[-1].elastic]
+    assert identification_json(poor)["models"] is None
+    assert identification_json(replace(poor, consistency=None, local_change=None))["consistency"] is None
+
+
+def test_what_is_not_separated_says_so(mixed) -> None:
+    document = identification_json(mixed)
+    apart = {entry["name"]: entry["separated"] for entry in document["parameters"]}
+    assert apart["C_XXX"] is False
+    assert apart["E_Xt0"] is True
+    assert document["levels"][0]["elastic_um"] is None
+    assert [check["name"] for check in document["verdict"] if check["decisive"]] == ["separated"]
+
+
+def test_diagnosis(separated, mixed) -> None:
+    diagnosis = diagnose(separated)
+    document = diagnosis_json(diagnosis, separated)
+    strict(document)
+    assert document["schema"] == "elastogeo.diagnosis/1"
+    first = document["faults"][0]
+    assert first["distortion_um"] == 1000 * diagnosis.faults[0].distortion
+    assert set(first) >= {
+        "names",
+        "meaning",
+        "axis",
+        "value",
+        "unit",
+        "standard_uncertainty",
+        "share",
+        "significant",
+        "also",
+    }
+    pair = next(fault for fault in document["faults"] if len(fault["names"]) == 2)
+    assert sorted(pair["names"]) == ["P_XXc1", "P_XXs1"]
+    low, high = first["distortion_interval95_um"]
+    assert low < first["distortion_um"] < high
+    assert [entry["force_N"] for entry in document["circularity"]] == [level.force for level in separated.levels]
+    assert document["circularity"][0]["g_ccw_um"] == 1000 * diagnosis.circularity[36.0].g_ccw
+    assert document["circularity"][0]["g_cw_um"] is None
+    assert document["circularity"][0]["not_determined"]
+    untold = diagnosis_json(diagnose(mixed), mixed)["faults"]
+    together = next(fault for fault in untold if "C_XXX" in fault["names"])
+    assert together["names"] == ["C_XXX", "E_XX1"]
+    assert together["separated"] is False
+    assert together["axis"] is None
+    assert "not told apart" in together["meaning"]
+
+
+def test_comparison(separated) -> None:
+    compared = compare_tests(separated, separated)
+    document = comparison_json(compared)
+    strict(document)
+    assert document["schema"] == "elastogeo.comparison/1"
+    assert document["before"] == document["after"] == identification_json(separated)["test"]
+    assert {entry["change"] for entry in document["differences"]} == {0.0}
+    assert document["joint"]["significant"] is False
+    assert document["verdict"][0]["passed"] is True
+
+
+def test_what_if(separated) -> None:
+    told = what_if(separated, ["C_XXX", "E_XX1"])
+    document = what_if_json(told, separated)
+    strict(document)
+    assert document["schema"] == "elastogeo.what-if/1"
+    assert [entry["name"] for entry in document["corrected"]] == ["C_XXX", "E_XX1"]
+    assert len(document["traces"]) == len(separated.traces)
+    assert document["traces"][0]["peak_to_peak_before_um"] == 1000 * told.peak_to_peak[separated.traces[0].run][0]
+    assert document["after"][-1]["g_ccw_um"] == 1000 * told.after[742.0 if 742.0 in told.after else max(told.after)].g_ccw
+    assert document["verdict"] == identification_json(separated)["verdict"]
 
 
 def test_two_results_are_not_one_document(rich, poor) -> None:

@@ -5,23 +5,27 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
 from elastogeo.errors import InputError
-from elastogeo.report import MissingExtraError, figures, save_figures
+from elastogeo.identify import diagnose
+from elastogeo.report import MissingExtraError, figures, parameter_rows, save_figures
 from elastogeo.report.figures import inline_svg
 from elastogeo.report.style import force_colours, nice_step, thinned
 
 ALWAYS = ["traces", "residuals", "contributions", "patterns"]
 
 
-def test_every_figure_that_there_is_something_for(rich, poor, geometric) -> None:
+def test_every_figure_that_there_is_something_for(rich, poor, geometric, separated, mixed) -> None:
     assert list(figures(rich)) == [*ALWAYS, "local", "repeats"]
     assert list(figures(poor)) == ALWAYS
-    assert list(figures(geometric)) == [*ALWAYS, "local"]
+    assert list(figures(geometric)) == [*ALWAYS, "separation", "diagnosis", "local", "models"]
+    assert list(figures(separated)) == [*ALWAYS, "separation", "diagnosis", "local", "models", "budget", "repeats"]
+    assert list(figures(mixed)) == [*ALWAYS, "repeats"]
 
 
 def test_files_are_the_same_bytes_twice(rich, tmp_path) -> None:
@@ -66,11 +70,63 @@ def test_traces_are_drawn_where_they_were_measured(poor) -> None:
     assert np.unwrap(np.arctan2(y, x)) == pytest.approx(trace.pose)
 
 
-def test_contributions_are_signed_and_ranked(rich) -> None:
-    bars = figures(rich)["contributions"].axes[0].patches
-    spans = [bar.get_width() for bar in bars if bar.get_height() == pytest.approx(0.62)]
-    expected = sorted((1000 * p.peak_to_peak for p in rich.parameters), key=abs)
-    assert spans == pytest.approx(expected)
+def bars_of(figure) -> list[tuple[float, float, float]]:
+    """Length and 95 % interval of every bar, from the bottom."""
+    ax = figure.axes[0]
+    bars = [bar.get_width() for bar in ax.patches if bar.get_height() == pytest.approx(0.62)]
+    whiskers = [line.get_xdata() for line in ax.lines if line.get_marker() == "|"]
+    return [(length, *ends) for length, ends in zip(bars, whiskers, strict=True)]
+
+
+def test_contributions_are_signed_and_ranked_with_their_intervals(rich) -> None:
+    drawn = bars_of(figures(rich)["contributions"])
+    ranked = sorted(rich.parameters, key=lambda p: abs(p.peak_to_peak))
+    for (length, low, high), p in zip(drawn, ranked, strict=True):
+        assert length == pytest.approx(1000 * p.peak_to_peak)
+        assert (high - low) / abs(length) == pytest.approx((p.interval[1] - p.interval[0]) / abs(p.value))
+
+
+def test_the_diagnosis_ranks_machine_faults_before_the_set_up(separated) -> None:
+    drawn = bars_of(figures(separated)["diagnosis"])[::-1]
+    faults = diagnose(separated).faults
+    assert [length for length, _, _ in drawn] == pytest.approx([1000 * fault.distortion for fault in faults])
+    assert [fault.axis for fault in faults[-2:]] == ["", ""]
+    for (_, low, high), fault in zip(drawn, faults, strict=True):
+        if len(fault.names) == 1:
+            assert fault.significant == (not low <= 0 <= high)
+
+
+def test_separation_shows_the_parts_at_one_scale(separated) -> None:
+    axes = figures(separated)["separation"].axes
+    titles = [ax.get_title().split("\n")[0] for ax in axes]
+    assert titles == ["compliance and geometry", "compliance alone", "geometry alone"]
+    spans = [float(re.search(r"([\d.]+) µm", ax.get_title())[1]) for ax in axes]
+    level = separated.levels[-1]
+    assert spans[1] == pytest.approx(1000 * (level.elastic[1] - level.elastic[0]), rel=5e-3)
+    assert spans[2] == pytest.approx(1000 * (level.geometric[1] - level.geometric[0]), rel=5e-3)
+
+
+def test_budget_bars_fill_the_whole_variance(separated) -> None:
+    bars = figures(separated)["budget"].axes[0].patches
+    rows = {round(bar.get_y(), 6) for bar in bars}
+    assert len(rows) == len(separated.parameters)
+    for row in rows:
+        assert sum(bar.get_width() for bar in bars if round(bar.get_y(), 6) == row) == pytest.approx(100)
+
+
+def test_models_mark_the_supported_one_and_leave_out_what_is_not_known(separated) -> None:
+    models = replace(separated.models, models=(replace(separated.models.models[0], left_out_level=None),))
+    ax = figures(replace(separated, models=models))["models"].axes[0]
+    assert [text.get_fontweight() for text in ax.get_yticklabels()] == ["bold"]
+    assert [line.get_marker() for line in ax.lines if len(line.get_xdata()) == 1] == ["o", "D"]
+
+
+def test_where_nothing_is_told_apart_bars_and_patterns_carry_sums(mixed) -> None:
+    drawn = figures(mixed)
+    names = [text.get_text().replace("\n", " ") for text in drawn["contributions"].axes[0].get_yticklabels()]
+    assert sorted(names) == sorted(row.name for row in parameter_rows(mixed))
+    titles = [ax.get_title().replace("\n", " ") for ax in drawn["patterns"].axes]
+    assert "C_XXX or E_XX1" in titles
 
 
 def test_patterns_name_their_groups(rich) -> None:
@@ -116,14 +172,15 @@ def test_each_level_has_its_own_colour() -> None:
 
 
 def test_importing_the_room_draws_nothing() -> None:
-    probe = "import sys, elastogeo.report; print([n for n in ('matplotlib', 'jinja2', 'markupsafe') if n in sys.modules])"
+    heavy = ("matplotlib", "jinja2", "markupsafe", "typst")
+    probe = f"import sys, elastogeo.report; print([n for n in {heavy} if n in sys.modules])"
     assert subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True).stdout == "[]\n"
 
 
 def test_without_matplotlib_it_says_what_to_install(poor, monkeypatch) -> None:
     for name in [name for name in sys.modules if name.partition(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
-    for room in ("style", "contributions", "traces", "patterns", "estimates"):
+    for room in ("style", "circles", "contributions", "traces", "patterns", "estimates", "separation", "uncertainties"):
         monkeypatch.delitem(sys.modules, f"elastogeo.report.{room}", raising=False)
 
     class Absent:

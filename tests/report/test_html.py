@@ -9,7 +9,7 @@ from html.parser import HTMLParser
 import pytest
 
 from elastogeo.report import html_report, parameter_rows, save_html
-from elastogeo.report.html import micro, pretty
+from elastogeo.report.numbers import micro, pretty
 
 ATTACK = "<script>alert('x')</script><img src=https://evil.example/x onerror=alert(1)>"
 
@@ -25,6 +25,7 @@ class Page(HTMLParser):
         self.attributes: list[tuple[str, str]] = []
         self.open: list[str] = []
         self.words = ""
+        self.texts: list[str] = []
         self.feed(text)
 
     def handle_starttag(self, tag, attrs) -> None:
@@ -42,6 +43,12 @@ class Page(HTMLParser):
 
     def handle_data(self, data) -> None:
         self.words += data
+        self.texts.append(data.strip())
+
+
+@pytest.fixture(scope="module")
+def separated_page(separated) -> str:
+    return html_report(separated)
 
 
 @pytest.fixture(scope="module")
@@ -53,7 +60,7 @@ def words_of(page: str) -> str:
     return re.sub(r"\s+", " ", Page(page).words)
 
 
-@pytest.mark.parametrize("name", ["rich", "poor", "geometric"])
+@pytest.mark.parametrize("name", ["rich", "poor", "geometric", "separated", "mixed"])
 def test_it_asks_for_nothing_and_runs_nothing(name, request) -> None:
     text = html_report(request.getfixturevalue(name))
     page = Page(text)
@@ -89,10 +96,11 @@ def test_simulated_data_say_so_and_measured_do_not(rich_page, poor) -> None:
 def test_the_verdict_comes_first_and_in_words(rich, rich_page) -> None:
     words = words_of(rich_page)
     for check in rich.verdict:
-        at = words.index(f"{check.name}{micro(check.sentence)}")
+        at = words.index(f"{check.name}{pretty(micro(check.sentence))}")
         assert words[:at].rstrip().endswith("Passed" if check.passed else "Attention")
         assert at < words.index("Value ± U")
-    assert "One point needs attention; 4 of 5 checks passed." in words
+    passed = sum(check.passed for check in rich.verdict)
+    assert f"points need attention; {passed} of {len(rich.verdict)} checks passed." in words
 
 
 def test_every_parameter_is_in_the_table_with_its_uncertainty(rich, rich_page) -> None:
@@ -105,15 +113,16 @@ def test_every_parameter_is_in_the_table_with_its_uncertainty(rich, rich_page) -
     assert parameter_rows(rich)[1].stands_for == "C_XYX + C_YXX + C_XYY + C_YXY"
 
 
-def test_what_must_be_said_openly(rich_page, poor, geometric) -> None:
+def test_what_must_be_said_openly(rich, rich_page, poor, geometric) -> None:
     words = words_of(rich_page)
     for said in (
         "Repeatability is not uncertainty",
         "9 combinations of one run per level share runs and are not independent",
-        "not contained here",
+        "It is added as if the reference scattered like the repeated runs",
         "Compliances here are equivalent ones",
         "C_XCX, C_YCX, C_CXX, C_CYX and C_CCX change no reading",
-        "C_CCY is negative, and its interval excludes zero",
+        pretty(rich.consistency.sentence),
+        "a reference level is taken off",
         "only as traceable as",
         "Eqs. 4.26, 4.27",
     ):
@@ -123,13 +132,71 @@ def test_what_must_be_said_openly(rich_page, poor, geometric) -> None:
     least = words_of(html_report(poor))
     assert "combinations of one run" not in least
     assert "Eqs. 4.26" not in least
-    assert "Local against global" not in least
+    assert "Does anything change with the force" not in least
 
 
 def test_residuals_with_structure_are_said_beside_the_uncertainties(rich, rich_page) -> None:
     checks = tuple(replace(check, passed=check.name != "residuals without structure") for check in rich.verdict)
     assert "The true uncertainty is larger than U" in words_of(html_report(replace(rich, verdict=checks)))
     assert "The true uncertainty is larger" not in words_of(rich_page)
+
+
+def test_compliance_and_geometry_are_shown_apart_with_what_the_data_support(separated, separated_page) -> None:
+    words = words_of(separated_page)
+    for said in (
+        "Compliance and geometry apart",
+        "The uncertainties come from the scatter of 12 runs, each of which counts once",
+        "The budget also holds what the test's file states as known: bar, form of the balls and gauge.",
+        f"The data support a {separated.models.supported} compliance",
+        "count on independent readings",
+        "All differences together: p = ",
+        pretty(separated.consistency.sentence),
+        "Circular deviations after ISO 230-4",
+        "positioning error of X, degree 1",
+    ):
+        assert said in words, said
+    assert "states no systematic influence" not in words
+
+
+def test_the_budget_is_sorted_and_says_its_types(separated, separated_page) -> None:
+    words = words_of(separated_page)
+    for parameter, lines in zip(separated.parameters, separated.budget.lines, strict=True):
+        table = words[words.index(f"{parameter.name}: u = ") :]
+        last = 0
+        for line in lines:
+            if line.contribution**2 >= 0.01 * parameter.standard_uncertainty**2:
+                at = table.index(f"{line.label}{'B' if line.type_b else 'A'}, {line.distribution}")
+                assert at > last
+                last = at
+
+
+def test_where_nothing_is_told_apart_no_cause_is_named(mixed) -> None:
+    page = html_report(mixed)
+    words = words_of(page)
+    sums = [row.name for row in parameter_rows(mixed)]
+    assert sums[0].startswith("C_XXX + 0.20")
+    assert words.index("Compliance and geometry are not told apart") < words.index("Verdict")
+    assert all(name in words for name in sums)
+    assert "positioning error" not in words
+    assert "at joint X" not in words
+    assert "Compliance and geometry apart" not in words
+    assert "E_XX1 carries" not in words
+    assert [name for name in Page(page).texts if name in {"C_XXX", "C_YYY", "C_CXY", "E_XX1", "E_YX2"}] == []
+
+
+def test_without_what_was_not_computed_the_page_still_stands(separated) -> None:
+    words = words_of(
+        html_report(replace(separated, models=None, consistency=None, local_change=None, repeats=None, local=()))
+    )
+    for absent in ("Is the compliance constant?", "Does it agree with physics?", "Does anything change", "Repeats"):
+        assert absent not in words
+
+
+def test_without_runs_enough_it_says_why(separated) -> None:
+    budget = replace(separated.budget, lines=tuple(line[:0] for line in separated.budget.lines))
+    words = words_of(html_report(replace(separated, by_run=False, verdict=(), budget=budget)))
+    assert "The uncertainties count on independent readings" in words
+    assert "states no systematic influence" in words
 
 
 def test_the_same_result_gives_the_same_page(rich, rich_page, tmp_path) -> None:

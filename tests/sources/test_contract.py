@@ -37,7 +37,7 @@ def five_axes() -> Machine:
 
 CIRCLES = {
     "a tilted circle": Circle(150.0, ((1.0, 1.0, 0.0), (1.0, -1.0, 3.0)), {"A": 0.4, "C": -0.7, "X": 30.0}),
-    "A and C turning": Circle(150.0, "XY", {"Z": 40.0}, in_workpiece=True, rotary_turn={"A": 0.3, "C": 1.0}),
+    "A and C turning": Circle(150.0, "XY", {"Z": 40.0}, in_workpiece=True, rotary_turn={"A": 0.3, "C": 0.6}),
 }
 ACCELERATED = ("servo_errors", "reversal_errors", "ball-bar-xy", "ball-bar-yz", "ball-bar-zx")
 """What asks for accelerations, which are not known where rotary axes turn."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -13,13 +13,28 @@ from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from elastogeo.estimate import Confounding
-from elastogeo.identify import Check, Identification
+from elastogeo.identify import BeforeAfter, Check, Diagnosis, Identification, WhatIf
 from elastogeo.machine import Machine
-from elastogeo.report import combination, parameter_rows, save_figures, save_html
+from elastogeo.report import (
+    combination,
+    comparison_rows,
+    diagnosis_rows,
+    in_micrometres,
+    parameter_rows,
+    save_figures,
+    save_html,
+    save_pdf,
+    what_if_rows,
+)
 
 Step = Callable[[str], None]
 
+_WIDTH = 140
+"""Of tables that go to a file or another program: wide enough that no cell is folded."""
+
 _console = Console(highlight=False)
+if not _console.is_terminal:
+    _console = Console(highlight=False, width=_WIDTH)
 
 
 def say(sentence: str) -> None:
@@ -43,20 +58,17 @@ def progress(first: str, quiet: bool) -> Iterator[Step]:
 
 
 def write_report(result: Identification, folder: Path, step: Step) -> Path:
-    """Write the HTML report and its figures to a folder; return the report's path."""
+    """Write the report as HTML and PDF, and its figures, to a folder; return the path of the HTML."""
     step("drawing the figures")
     save_figures(result, folder)
     step("writing the report")
+    save_pdf(result, folder / "report.pdf")
     return save_html(result, folder / "report.html")
 
 
 def show_identification(result: Identification) -> None:
     """Parameters, fit, verdict."""
-    test = result.test
-    say(f"{test.name}, on {test.machine.name} ({test.machine.topology.compact}), {len(test.runs)} runs")
-    if test.simulated:
-        say(f"Simulated data. {test.simulated}")
-    say("")
+    _head(result)
     _console.print(_parameters(result))
     say("")
     _console.print(_levels(result))
@@ -78,11 +90,53 @@ def show_confounding(found: Confounding) -> None:
     _stands_for(found)
 
 
+def show_diagnosis(diagnosis: Diagnosis, result: Identification, significant: bool) -> None:
+    """The ranked faults, what was not told apart, the ISO 230-4 parameters."""
+    _head(result)
+    table = _table(("", "fault", "what", "value ± U (95 %)", "unit", "trace, p-p [um]", "share [%]"), left=(0, 1, 2, 4))
+    for row in diagnosis_rows(diagnosis, result):
+        if row.significant == "yes" or not significant:
+            table.add_row(row.rank, row.name, row.meaning, row.value, row.unit, row.distortion_um, row.share_percent)
+    _console.print(table)
+    for row in diagnosis_rows(diagnosis, result):
+        if row.also:
+            say(f"{row.name} cannot be told from {row.also}")
+    if diagnosis.untold:
+        say(f"This test says nothing of {', '.join(diagnosis.untold)}")
+    for force, circle in diagnosis.circularity.items():
+        found = {"G ccw": circle.g_ccw, "G cw": circle.g_cw, "G(b)": circle.g_bidirectional, "D": circle.mean_radial}
+        said = ", ".join(f"{name} {in_micrometres(value)} um" for name, value in found.items() if value is not None)
+        say(f"ISO 230-4 at {force:g} N: {said}")
+    say("")
+    for check in result.verdict:
+        _show_check(check)
+
+
+def show_comparison(compared: BeforeAfter) -> None:
+    """What changed between two tests."""
+    say(f"{compared.before.test.name} -> {compared.after.test.name}")
+    say("")
+    table = _table(("parameter", "before", "after", "change ± U (95 %)", "unit", "p", "changed"), left=(0, 4))
+    for row in comparison_rows(compared):
+        table.add_row(row.name, row.before, row.after, row.change, row.unit, row.p_value, row.changed)
+    _console.print(table)
+    say("")
+    for check in compared.verdict:
+        _show_check(check)
+
+
+def show_what_if(predicted: WhatIf) -> None:
+    """What a correction would bring."""
+    say(f"With {', '.join(predicted.corrected)} corrected, predicted:")
+    table = _table(("force [N]", "deviation", "before [um]", "after [um]", "change [%]"), left=(1,))
+    for row in what_if_rows(predicted):
+        table.add_row(row.force, row.what, row.before_um, row.after_um, row.change_percent)
+    _console.print(table)
+
+
 def show_machines(machines: Mapping[str, Machine]) -> None:
     """The shipped machines, a line each."""
-    table = Table(box=None, pad_edge=False)
-    for heading in ("name", "machine", "topology", "ISO 10791-6"):
-        table.add_column(heading)
+    table = _table(("name", "machine", "topology", "ISO 10791-6"), left=range(4))
     for name, machine in machines.items():
         table.add_row(name, machine.name, machine.topology.compact, machine.topology.iso.replace("[", "\\["))
     _console.print(table)
@@ -91,9 +145,7 @@ def show_machines(machines: Mapping[str, Machine]) -> None:
 def show_machine(machine: Machine) -> None:
     """One machine in full."""
     say(f"{machine.name}  {machine.topology.compact}  {machine.topology.iso}")
-    table = Table(box=None, pad_edge=False)
-    for heading in ("axis", "branch", "kind", "offset [mm]", "travel"):
-        table.add_column(heading.replace("[", "\\["))
+    table = _table(("axis", "branch", "kind", "offset [mm]", "travel"), left=range(5))
     for joint in machine.joints:
         branch = "tool" if machine.in_tool_branch(joint.name) else "workpiece"
         low, high = joint.travel
@@ -107,20 +159,31 @@ def show_machine(machine: Machine) -> None:
         say(f"Assumed: {sentence}")
 
 
-def _parameters(result: Identification) -> Table:
+def _head(result: Identification) -> None:
+    test = result.test
+    say(f"{test.name}, on {test.machine.name} ({test.machine.topology.compact}), {len(test.runs)} runs")
+    if test.simulated:
+        say(f"Simulated data. {test.simulated}")
+    say("")
+
+
+def _table(headings: Sequence[str], left: Sequence[int]) -> Table:
+    """An empty table; columns not named in `left` are figures."""
     table = Table(box=None, pad_edge=False)
-    table.add_column("parameter")
-    for heading in ("value ± U (95 %)", "unit", "trace, p-p \\[um]", "share \\[%]"):
-        table.add_column(heading, justify="left" if heading == "unit" else "right")
+    for k, heading in enumerate(headings):
+        table.add_column(heading.replace("[", "\\["), justify="left" if k in left else "right", no_wrap=k not in left)
+    return table
+
+
+def _parameters(result: Identification) -> Table:
+    table = _table(("parameter", "value ± U (95 %)", "unit", "trace, p-p [um]", "share [%]"), left=(0, 2))
     for row in parameter_rows(result):
         table.add_row(row.name, row.value, row.unit, row.peak_to_peak_um, row.share_percent)
     return table
 
 
 def _levels(result: Identification) -> Table:
-    table = Table(box=None, pad_edge=False)
-    for heading in ("force \\[N]", "readings", "RMSE \\[um]", "fit \\[%]"):
-        table.add_column(heading, justify="right")
+    table = _table(("force [N]", "readings", "RMSE [um]", "fit [%]"), left=())
     for level in result.levels:
         table.add_row(f"{level.force:g}", str(level.readings), f"{level.rmse * 1000:.3f}", f"{level.fitness:.1f}")
     return table

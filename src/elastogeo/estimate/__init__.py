@@ -12,7 +12,7 @@ from elastogeo.estimate.propagation import (
     numerical_tolerance,
 )
 from elastogeo.estimate.refinement import refine
-from elastogeo.estimate.repeats import Repeatability, repeatability
+from elastogeo.estimate.repeats import Common, Repeatability, repeatability
 from elastogeo.estimate.solution import SOLVABLE, Noise, Solution, minimum_norm, solve, white_noise
 
 __all__ = [
@@ -21,6 +21,7 @@ __all__ = [
     "NULL_TOLERANCE",
     "RANK_TOLERANCE",
     "SOLVABLE",
+    "Common",
     "Confounding",
     "Factor",
     "Influence",

@@ -20,7 +20,7 @@ RANK_TOLERANCE = 1e-8
 """A unit column whose distance from the span of the retained ones is smaller counts as dependent on them."""
 
 NULL_TOLERANCE = 1e-12
-"""A column this much shorter than the longest of its kind counts as null: it is rounding error."""
+"""A column this much shorter than it would be if nothing cancelled counts as null: it is rounding error."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,7 @@ class Confounding:
 def confounding(
     factor: Factor,
     preference: Sequence[str] | None = None,
-    kinds: Sequence[str] | None = None,
+    ceilings: Array | None = None,
     tolerance: float = RANK_TOLERANCE,
 ) -> Confounding:
     """Find null columns, proportional groups, linear dependencies, and the retained set.
@@ -86,9 +86,9 @@ def confounding(
         Of p columns.
     preference : sequence of str, optional
         Labels in the order in which they are to be retained; those not named come last, in the factor's order.
-    kinds : sequence of str, length p, optional
-        Columns of one kind (one unit) may be compared in length, to tell a null column from rounding error. Without
-        kinds no two may, and only a column of zeros is null.
+    ceilings : array, shape (p,), optional
+        The length that each column would have if nothing cancelled, to tell a null column from rounding error. Without
+        it only a column of zeros is null.
     tolerance : float
         Relative tolerance on scaled columns.
 
@@ -104,7 +104,7 @@ def confounding(
         If a preferred label is unknown.
     """
     norms = factor.column_norms
-    alive = _alive(norms, factor.labels if kinds is None else kinds)
+    alive = norms > (0.0 if ceilings is None else NULL_TOLERANCE * ceilings)
     if not alive.any():
         raise RankError(f"none of the parameters {', '.join(factor.labels)} changes any reading of this test")
     scaled = factor.R[:, alive] / norms[alive]
@@ -131,15 +131,6 @@ def confounding(
         weakest=Vt[-1],
         tolerance=tolerance,
     )
-
-
-def _alive(norms: Array, kinds: Sequence[str]) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Which columns are longer than rounding error."""
-    longest = np.zeros_like(norms)
-    for kind in set(kinds):
-        same = np.array([k == kind for k in kinds])
-        longest[same] = norms[same].max(initial=0.0)
-    return np.asarray(norms > NULL_TOLERANCE * longest)
 
 
 def _order(labels: Sequence[str], names: list[str], preference: Sequence[str] | None) -> list[int]:

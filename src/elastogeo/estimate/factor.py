@@ -20,11 +20,12 @@ from elastogeo.errors import InputError, SelectionError
 
 Array = NDArray[np.float64]
 
-BLOCK_ROWS = 4096
-"""Rows pushed at once: large enough for the cost of a call not to count, small enough for the cache."""
+BLOCK_ROWS = 2048
+"""Rows pushed at once: enough for the cost of a call not to count, few enough for the cache."""
 
-NARROW = 32
-"""Columns below which narrower panels of the blocked QR are faster (and its products too small to spread over threads)."""
+_PANEL = 4
+"""Columns that the blocked QR takes at once. More rows times columns than 9216 and OpenBLAS would spread matrix-vector
+products over threads, which keeps a second core busy and gains nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,6 +144,6 @@ def _merged(one: Factor, other: Factor) -> Factor:
 
 def _pushed(triangle: Array, rows: Array, trapezoid: int = 0) -> Array:
     """Triangle of the rows under a triangle (LAPACK dtpqrt); `trapezoid` says how many of the rows are triangular."""
-    panel = min(4 if len(triangle) < NARROW else 8, len(triangle))
+    panel = min(_PANEL, len(triangle))
     pushed, *_ = lapack.dtpqrt(trapezoid, panel, triangle, np.asfortranarray(rows), overwrite_a=0, overwrite_b=1)
     return np.asarray(pushed)

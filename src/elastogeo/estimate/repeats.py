@@ -48,7 +48,23 @@ class Repeatability:
         return np.asarray(self.combinations.std(axis=0, ddof=1))
 
 
-def repeatability(levels: Mapping[str, Sequence[Factor]], labels: Sequence[str]) -> Repeatability:
+@dataclass(frozen=True, slots=True)
+class Common:
+    """What an error that all runs share adds to the uncertainty.
+
+    Attributes
+    ----------
+    covariance : array, shape (p, p)
+    degrees_of_freedom : float
+    """
+
+    covariance: Array
+    degrees_of_freedom: float
+
+
+def repeatability(
+    levels: Mapping[str, Sequence[Factor]], labels: Sequence[str], common: Common | None = None
+) -> Repeatability:
     """Estimate from repeated runs with a run-level (type A) uncertainty.
 
     Parameters
@@ -57,6 +73,8 @@ def repeatability(levels: Mapping[str, Sequence[Factor]], labels: Sequence[str])
         One factor per run, by level.
     labels : sequence of str
         Parameters to solve for (a retained set).
+    common : Common, optional
+        Of an error that all runs share: that of a reference which was taken off from each.
 
     Returns
     -------
@@ -78,8 +96,11 @@ def repeatability(levels: Mapping[str, Sequence[Factor]], labels: Sequence[str])
     parts = {name: np.array([_part(run, every, solution.values) for run in runs]) for name, runs in chosen.items()}
     # The sum of n independent parts has n times the variance of one.
     by_level = [len(part) * np.cov(part, rowvar=False, ddof=1).reshape(len(labels), -1) for part in parts.values()]
+    freedoms = np.array([[len(part) - 1.0] for part in parts.values()])
+    if common is not None:
+        by_level.append(common.covariance)
+        freedoms = np.vstack([freedoms, [[common.degrees_of_freedom]]])
     variances = np.array([np.diag(covariance) for covariance in by_level])
-    freedoms = np.array([[len(part) - 1] for part in parts.values()])
     total = variances.sum(axis=0)
     degrees = np.divide(total**2, (variances**2 / freedoms).sum(axis=0), out=np.full(len(labels), np.inf), where=total > 0)
     return Repeatability(

@@ -107,7 +107,8 @@ def uncertainty_budget(systems: Systems, solution: Solution, effects: Sequence[E
         With the covariance of the scatter.
     effects : sequence of Effect
     """
-    sensitivities = [_sensitivity(systems, solution, effect) for effect in effects]
+    moments = _moments(systems, solution)
+    sensitivities = [_sensitivity(systems, solution, effect, moments) for effect in effects]
     scatter = solution.standard_uncertainty
     contributions = np.column_stack(
         [scatter, *(np.abs(c) * e.influence.standard_uncertainty for c, e in zip(sensitivities, effects, strict=True))]
@@ -189,9 +190,8 @@ def _shifted(systems: Systems, solution: Solution, effect: Effect, norms: Array)
     return np.array([(run.design_of(solution.labels) / norms).T @ shift for run, shift in pairs])
 
 
-def _sensitivity(systems: Systems, solution: Solution, effect: Effect) -> Array:
+def _sensitivity(systems: Systems, solution: Solution, effect: Effect, runs: _Moments) -> Array:
     """Change of the estimate per unit of the influence quantity, shape (p,)."""
-    runs = _moments(systems, solution)
     values = solution.values * runs.norms
     rest = runs.moment - runs.gram @ values
     moved = effect.stretch @ (runs.powers * rest - runs.gram @ (runs.powers * values))

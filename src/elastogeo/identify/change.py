@@ -19,6 +19,12 @@ from elastogeo.machine import Array
 SIGNIFICANT = 0.05
 """Probability, without any change, below which a difference counts as a change."""
 
+_WITHIN = 1e-8
+"""Least singular value of a run's scaled columns that counts as a direction of its traces."""
+
+_ROUNDING = 1e-12
+"""Share of the readings that is their rounding error at most: less scatter than that is none."""
+
 
 @dataclass(frozen=True, slots=True)
 class Change:
@@ -29,7 +35,8 @@ class Change:
     labels : tuple of str
         Parameters whose differences are tested.
     statistic : float
-        `d^T V^-1 d / q`: F-distributed with `q` and `degrees_of_freedom` if nothing changed.
+        F-distributed with `q` and `degrees_of_freedom` if nothing changed: `d^T V^-1 d / q`, with V from the two tests; of
+        local estimates over the variance that the runs show beyond these very differences.
     q : int
         How many differences.
     degrees_of_freedom : float
@@ -63,17 +70,24 @@ def run_dispersion(runs: Sequence[Factor], labels: Sequence[str]) -> tuple[float
     DegreesOfFreedomError
         If the runs leave nothing over.
     """
-    chosen = [select(run, labels) for run in runs]
-    values = solve(merge(*chosen)).values
-    left = sum(float(np.sum((run.z - run.R @ values) ** 2)) for run in chosen)
-    norms = [run.column_norms for run in chosen]
-    ranks = sum(
-        int(np.linalg.matrix_rank(run.R / np.where(n > 0, n, 1.0), tol=1e-8)) for run, n in zip(chosen, norms, strict=True)
-    )
-    freedom = ranks - len(labels)
+    left, freedom = _between([select(run, labels) for run in runs])
+    return left / freedom, freedom
+
+
+def _between(runs: Sequence[Factor]) -> tuple[float, float]:
+    """Sum of squares that the common fit leaves between the runs, within what the parameters can make; its freedom."""
+    values = solve(merge(*runs)).values
+    left, freedom = 0.0, -float(len(values))
+    for run in runs:
+        norms = run.column_norms
+        U, singular_values, _ = np.linalg.svd(run.R / np.where(norms > 0, norms, 1.0))
+        within = U[:, singular_values > _WITHIN]  # what is left beyond it is the scatter of readings about any trace
+        left += float(np.sum((within.T @ (run.z - run.R @ values)) ** 2))
+        freedom += within.shape[1]
     if freedom <= 0:
-        raise DegreesOfFreedomError(f"{len(runs)} runs leave no degree of freedom for {len(labels)} parameters")
-    return left / freedom, float(freedom)
+        raise DegreesOfFreedomError(f"{len(runs)} runs leave no degree of freedom for {len(values)} parameters")
+    rounding = (_ROUNDING * float(np.linalg.norm([run.z for run in runs]))) ** 2
+    return max(left, freedom * rounding), freedom
 
 
 def local_change(runs: Sequence[Factor], labels: Sequence[str], choices: Sequence[Sequence[int]]) -> Change:
@@ -101,15 +115,15 @@ def local_change(runs: Sequence[Factor], labels: Sequence[str], choices: Sequenc
             "to say whether local estimates differ takes two of them; measure at three force levels or more"
         )
     chosen = [select(run, labels) for run in runs]
-    variance, freedom = run_dispersion(runs, labels)
+    left, freedom = _between(chosen)
     norms = merge(*chosen).column_norms
     grams = [(run.R / norms).T @ (run.R / norms) for run in chosen]
     inverses = [np.linalg.inv(sum(grams[r] for r in choice)) for choice in choices]
     values = np.array([solve(merge(*(chosen[r] for r in choice))).values * norms for choice in choices])
-    covariance = variance * np.block(
+    covariance = np.block(
         [[inverses[i] @ _shared(grams, a, b) @ inverses[j] for j, b in enumerate(choices)] for i, a in enumerate(choices)]
     )
-    return _tested(values, covariance, freedom, labels)
+    return _tested(values, covariance, left, freedom, labels)
 
 
 def difference(one: Solution, other: Solution, shared: Array | None = None) -> Change:
@@ -136,7 +150,7 @@ def difference(one: Solution, other: Solution, shared: Array | None = None) -> C
     scale = np.sqrt(np.diag(covariance))
     delta = (other.values - one.values) / scale
     freedom = min(float(one.degrees_of_freedom.min()), float(other.degrees_of_freedom.min()))
-    return _joint(delta, covariance / np.outer(scale, scale), freedom, one.labels, [[k] for k in range(len(delta))])
+    return _joint(delta, covariance / np.outer(scale, scale), freedom, one.labels)
 
 
 def _shared(grams: Sequence[Array], one: Sequence[int], other: Sequence[int]) -> Array:
@@ -144,24 +158,35 @@ def _shared(grams: Sequence[Array], one: Sequence[int], other: Sequence[int]) ->
     return np.asarray(sum(common, np.zeros_like(grams[0])))
 
 
-def _tested(values: Array, covariance: Array, freedom: float, labels: Sequence[str]) -> Change:
-    """Every estimate against the first."""
+def _tested(values: Array, covariance: Array, left: float, freedom: float, labels: Sequence[str]) -> Change:
+    """Every estimate against the first, `covariance` being that of readings of unit variance.
+
+    The differences are part of the scatter between the runs, so that they are judged by what is left of it without them.
+    """
     count, p = values.shape
     contrast = np.kron(np.column_stack([-np.ones(count - 1), np.eye(count - 1)]), np.eye(p))
     delta = contrast @ values.ravel()
     spread = contrast @ covariance @ contrast.T
     scale = np.sqrt(np.diag(spread))
-    of = [list(range(k, len(delta), p)) for k in range(p)]
-    return _joint(delta / scale, spread / np.outer(scale, scale), freedom, labels, of)
+    delta, correlation = delta / scale, spread / np.outer(scale, scale)
 
-
-def _joint(delta: Array, correlation: Array, freedom: float, labels: Sequence[str], of: Sequence[Sequence[int]]) -> Change:
-    statistic, q = _quadratic(delta, correlation)
-    each = {}
-    for label, rows in zip(labels, of, strict=True):
+    def judged(rows: Sequence[int]) -> tuple[float, int, float]:
         value, size = _quadratic(delta[rows], correlation[np.ix_(rows, rows)])
-        each[label] = float(fdtrc(size, freedom, value / size))
-    return Change(tuple(labels), statistic / q, q, freedom, float(fdtrc(q, freedom, statistic / q)), each)
+        rest = freedom - size
+        if rest <= 0:
+            raise DegreesOfFreedomError(f"the runs leave no degree of freedom to judge {size} differences by")
+        return value / size / (max(left - value, _ROUNDING * left) / rest), size, rest
+
+    statistic, q, rest = judged(range(len(delta)))
+    each = {label: judged(range(k, len(delta), p)) for k, label in enumerate(labels)}
+    p_values = {label: float(fdtrc(size, others, value)) for label, (value, size, others) in each.items()}
+    return Change(tuple(labels), statistic, q, rest, float(fdtrc(q, rest, statistic)), p_values)
+
+
+def _joint(delta: Array, correlation: Array, freedom: float, labels: Sequence[str]) -> Change:
+    value, q = _quadratic(delta, correlation)
+    each = {label: float(fdtrc(1, freedom, d**2)) for label, d in zip(labels, delta, strict=True)}
+    return Change(tuple(labels), value / q, q, freedom, float(fdtrc(q, freedom, value / q)), each)
 
 
 def _quadratic(delta: Array, correlation: Array) -> tuple[float, int]:

@@ -44,13 +44,15 @@ def fitness(predicted: Array, measured: Array) -> float:
     return 100.0 * (1.0 - rmse(predicted, measured) / span) if span > 0 else float("nan")
 
 
-def strongest_harmonic(residual: Array, angle: Array) -> Harmonic:
+def strongest_harmonic(residual: Array, angle: Array, looks: int = 1) -> Harmonic:
     """The strongest harmonic left in the residuals of one run.
 
     Parameters
     ----------
     residual : array, shape (m,) [mm]
     angle : array, shape (m,) [rad]
+    looks : int
+        How many runs are searched; the false alarms of all together are one in a hundred.
 
     Notes
     -----
@@ -60,7 +62,7 @@ def strongest_harmonic(residual: Array, angle: Array) -> Harmonic:
     fits = [_amplitude(residual, angle, order) for order in HARMONICS]
     best = int(np.argmax(fits))
     sigma2 = float(np.mean(np.diff(residual) ** 2) / 2)
-    limit = 2 * sigma2 / len(residual) * float(chdtri(2, _FALSE_ALARM / len(HARMONICS)))
+    limit = 2 * sigma2 / len(residual) * float(chdtri(2, _FALSE_ALARM / len(HARMONICS) / looks))
     return Harmonic(HARMONICS[best], fits[best], fits[best] ** 2 > limit)
 
 

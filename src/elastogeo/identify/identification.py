@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
@@ -12,6 +12,7 @@ import numpy as np
 
 from elastogeo.errors import DegreesOfFreedomError, InputError, RankError, UnsupportedError
 from elastogeo.estimate import (
+    Common,
     Confounding,
     Repeatability,
     Solution,
@@ -108,7 +109,7 @@ def _assessed(result: Identification, systems: Systems) -> Identification:
     physics = None
     if elastic:
         result, physics = _held_against_physics(result)
-    harmonics = {t.run: strongest_harmonic(t.measured - t.predicted, t.pose) for t in result.traces}
+    harmonics = {t.run: strongest_harmonic(t.measured - t.predicted, t.pose, len(result.traces)) for t in result.traces}
     both = len({source.elastic for source in systems.sources}) == 2
     verdict = (
         identifiable(result.confounding),
@@ -165,7 +166,7 @@ def confounding_of(test: MachineTest, systems: Systems) -> Confounding:
     """What the test can and cannot tell apart of what its question asks for."""
     observations = [run.observations for run in systems.runs]
     order = retaining_order(systems.sources, test.machine, observations, test.question.prefer)
-    return confounding(merged(systems.runs), order, kinds=[source.unit for source in systems.sources])
+    return confounding(merged(systems.runs), order, systems.ceilings)
 
 
 def effects_of(test: MachineTest, systems: Systems) -> tuple[Effect, ...]:
@@ -321,12 +322,34 @@ def _parameters(systems: Systems, found: Confounding, solution: Solution, budget
 
 def _repeats(systems: Systems, retained: Sequence[str]) -> Repeatability | None:
     """Run-level uncertainty from the levels that were repeated, if they determine the parameters."""
-    levels = {f"{force:g} N": [run.factor for run in systems.at(force)] for force in systems.levels}
+    levels = {f"{force:g} N": systems.at(force) for force in systems.levels}
     repeated = {name: runs for name, runs in levels.items() if len(runs) > 1}
+    if not repeated:
+        return None
+    factors = {name: [run.factor for run in runs] for name, runs in repeated.items()}
     try:
-        return repeatability(repeated, retained) if repeated else None
+        return repeatability(factors, retained, _of_reference(systems, repeated, retained) if systems.references else None)
     except RankError:
         return None
+
+
+def _of_reference(systems: Systems, repeated: Mapping[str, Sequence[RunSystem]], retained: Sequence[str]) -> Common:
+    """What the scatter of the reference adds: it enters every difference alike, and the repeats do not show it.
+
+    The reference counts as scattering like the repeated runs, reading by reading. It was applied with the least force and may
+    scatter less; then this is too much, never too little.
+    """
+    runs = [run for chosen in repeated.values() for run in chosen]
+    designs = [run.design_of(retained) for run in runs]
+    norms = np.sqrt(sum(np.sum(design**2, axis=0) for design in designs))
+    information = sum((design / norms).T @ (design / norms) for design in designs)
+    pull = np.linalg.solve(information, (sum(designs) / norms).T)
+    moved = [
+        pull @ (run.reading - np.mean([r.reading for r in chosen], axis=0)) for chosen in repeated.values() for run in chosen
+    ]
+    freedom = len(runs) - len(repeated)
+    covariance = sum(np.outer(m, m) for m in moved) / freedom / systems.references
+    return Common(np.asarray(covariance / np.outer(norms, norms)), float(freedom))
 
 
 def _patterns(test: MachineTest, systems: Systems, found: Confounding) -> tuple[Pattern, ...]:

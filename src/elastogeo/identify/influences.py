@@ -81,6 +81,12 @@ def force_scale(known: KnownInfluence, _: MachineTest, systems: Systems) -> Iter
 @effect("force-offset")
 def force_offset(known: KnownInfluence, _: MachineTest, systems: Systems) -> Iterator[Effect]:
     """All forces are off by one amount in newtons: friction in the cylinder, the gauge's zero."""
+    unloaded = next((run.name for run in systems.runs if not run.force), None)
+    if unloaded is not None:
+        raise InputError(
+            f"the influence {known.kind!r} cannot be stated for run {unloaded!r}, which has no force that could be off by a "
+            f"part of itself; leave the run out, or state the influence as a force-level"
+        )
     yield Effect(_influence(known, known.force, "force_N"), np.array([1.0 / run.force for run in systems.runs]))
 
 

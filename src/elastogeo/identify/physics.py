@@ -433,7 +433,7 @@ def _found(
     systems = run_systems(sources, machine, observations, reference)
     names = {source.name for source in sources}
     order = retaining_order(sources, machine, observations, [name for name in prefer if name in names])
-    return confounding(merged(systems.runs), order, kinds=[source.unit for source in sources])
+    return confounding(merged(systems.runs), order, systems.ceilings)
 
 
 def _alone(found: Confounding) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.estimate import Factor, Noise, factor_blocks, merge
 from elastogeo.machine import Array, Machine
 from elastogeo.observe import Observations
-from elastogeo.sources import Source, design_rows
+from elastogeo.sources import Source, column_ceilings, design_rows
 
 SAME_POSE = 1e-6
 """Commands [mm, rad] that differ by less are the same pose."""
@@ -75,12 +75,15 @@ class Systems:
         How many reference runs were averaged and taken off from each run; 0 if none was.
     applied : tuple of float [N]
         The force levels that were applied, the reference among them, increasing.
+    ceilings : array, shape (p,)
+        Length that each column would have if nothing cancelled (`column_ceilings`).
     """
 
     sources: tuple[Source, ...]
     runs: tuple[RunSystem, ...]
     references: int
     applied: tuple[float, ...]
+    ceilings: Array
 
     @property
     def levels(self) -> tuple[float, ...]:
@@ -161,7 +164,8 @@ def run_systems(
         for run, force, r, is_ref in zip(observations, forces, rows, is_reference, strict=True)
         if not is_ref
     )
-    return Systems(tuple(sources), runs, references, applied)
+    ceilings = np.linalg.norm([column_ceilings(sources, machine, run) for run in observations], axis=0)
+    return Systems(tuple(sources), runs, references, applied, ceilings)
 
 
 def merged(runs: Sequence[RunSystem]) -> Factor:

@@ -91,14 +91,18 @@ def around(angle: Array, deviation: Array, scale: Scale, traces: int) -> tuple[A
     return r * np.cos(angle), r * np.sin(angle)
 
 
-def division_note(ax: Axes, scale: Scale, to_scale: bool) -> None:
+def division_note(scale: Scale, to_scale: bool) -> str:
+    """What a ring means, and how much the deviations are magnified."""
+    note = f"one division = {scale.division * UM:g} µm"
+    return f"{note}; deviations are magnified {scale.magnification:g} times" if to_scale else note
+
+
+def division_bar(ax: Axes, scale: Scale, to_scale: bool) -> None:
     """A bar as long as one division, with what it means."""
     length = scale.division * scale.magnification
     left, bottom = -scale.limit, -1.16 * scale.limit
     ax.plot([left, left + length], [bottom, bottom], color=INK, linewidth=1.4, marker="|", markersize=5, clip_on=False)
-    note = f"one division = {scale.division * UM:g} µm"
-    if to_scale:
-        note += f"; deviations are magnified {scale.magnification:g} times"
+    note = division_note(scale, to_scale)
     ax.text(left + length + 0.05 * scale.limit, bottom, note, ha="left", va="center", fontsize=SMALL)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import asdict
-from math import isfinite
 from typing import Any
 
 from elastogeo import __version__
@@ -12,6 +11,7 @@ from elastogeo.estimate import Repeatability
 from elastogeo.identify import CONDITION_LIMIT, Circularity, Comparison, Consistency, Diagnosis, Identification
 from elastogeo.observe import LoadedBallBar
 from elastogeo.report.as_json.envelope import instrument_name
+from elastogeo.report.budgets import budget_tables, degrees, uncertainty_table
 from elastogeo.report.findings import diagnosis_of, diagnosis_rows
 from elastogeo.report.numbers import micro, pretty, probability, significant, value_with_uncertainty, written_unit
 from elastogeo.report.text import (
@@ -38,10 +38,8 @@ from elastogeo.report.words import (
 
 Context = dict[str, Any]
 _MINUTE = 60.0
-_MANY = 1000.0
-"""Degrees of freedom above this are as good as infinite."""
-_NOTHING = 1e-4
-"""A contribution below this part of the whole is printed as nothing."""
+_MOVED = 1e-4
+"""Of its uncertainty: a constrained value closer to the free one is the same on paper."""
 
 
 def report_context(result: Identification) -> Context:
@@ -55,10 +53,11 @@ def report_context(result: Identification) -> Context:
         "facts": facts(result),
         "banner": banner(result),
         "sums": [pretty(label(p)) for p in result.parameters if not p.separated],
-        "verdict": [{"name": c.name, "passed": c.passed, "sentence": micro(c.sentence)} for c in result.verdict],
+        "verdict": [{"name": c.name, "passed": c.passed, "sentence": pretty(micro(c.sentence))} for c in result.verdict],
         "headline": _headline(sum(not check.passed for check in result.verdict), len(result.verdict)),
         "brief": _brief(result),
         "rows": _printed(parameter_rows(result)),
+        "stands": any(p.separated and len(p.stands_for) > 1 for p in result.parameters),
         "units": pretty("; ".join(_unit_notes(result))),
         "by_run": result.by_run,
         "structure": structure_words(result),
@@ -66,8 +65,8 @@ def report_context(result: Identification) -> Context:
         "reference": None if result.reference_force is None else f"{result.reference_force:g}",
         "repeated": len(result.traces) > len(result.levels),
         "uncertainty": uncertainty_words(result),
-        "uncertainties": _uncertainties(result),
-        "budgets": _budgets(result) if influences(result) else [],
+        "uncertainties": uncertainty_table(result),
+        "budgets": budget_tables(result) if influences(result) else [],
         "levels": levels,
         "fits": [level[:4] for level in levels],
         "both": all_separated(result) and {p.elastic for p in result.parameters if p.axis} == {True, False},
@@ -129,7 +128,8 @@ def _brief(result: Identification) -> list[tuple[str, str]]:
         ("Told apart", f"{found.rank} of {len(found.labels)} parameters or combinations"),
         (
             "Condition number",
-            f"{significant(found.condition_scaled)} scaled (limit {CONDITION_LIMIT:g}); {significant(found.condition_raw)} raw",
+            f"{significant(found.condition_scaled)} scaled (limit {CONDITION_LIMIT:g}); "
+            f"{significant(found.condition_raw)} raw",
         ),
     ]
     return [(what, pretty(text)) for what, text in lines]
@@ -150,56 +150,6 @@ def _unit_notes(result: Identification) -> list[str]:
         if by_name[p.name].factor != 1
     }
     return list(notes)
-
-
-def _uncertainties(result: Identification) -> list[tuple[str, str, str, str, str]]:
-    """For each parameter: name, standard uncertainty, unit, degrees of freedom, the one that counts on single readings."""
-    units = display_units(result)
-    return [
-        (
-            pretty(label(p)),
-            pretty(significant(p.standard_uncertainty * units[p.name].factor, 2)),
-            units[p.name].name,
-            _degrees(float(result.budget.degrees_of_freedom[k])),
-            pretty(significant(float(result.naive.standard_uncertainty[k]) * units[p.name].factor, 2)),
-        )
-        for k, p in enumerate(result.parameters)
-    ]
-
-
-def _budgets(result: Identification) -> list[Context]:
-    """The sorted budget of each parameter."""
-    units = display_units(result)
-    budgets = []
-    for k, p in enumerate(result.parameters):
-        whole, factor = p.standard_uncertainty, units[p.name].factor
-        lines = [
-            {
-                "label": line.label,
-                "type": "B" if line.type_b else "A",
-                "distribution": line.distribution,
-                "degrees": _degrees(line.degrees_of_freedom),
-                "contribution": "≈ 0"
-                if line.contribution < _NOTHING * whole
-                else pretty(significant(line.contribution * factor, 2)),
-                "share": f"{100 * (line.contribution / whole) ** 2 if whole else 0:.1f}",
-            }
-            for line in result.budget.lines[k]
-        ]
-        budgets.append(
-            {
-                "name": pretty(label(p)),
-                "unit": units[p.name].name,
-                "uncertainty": pretty(significant(whole * factor, 2)),
-                "degrees": _degrees(float(result.budget.degrees_of_freedom[k])),
-                "lines": lines,
-            }
-        )
-    return budgets
-
-
-def _degrees(freedom: float) -> str:
-    return "∞" if not isfinite(freedom) or freedom > _MANY else significant(freedom, 2)
 
 
 def _levels(result: Identification) -> list[list[str]]:
@@ -239,7 +189,7 @@ def _consistency(result: Identification, found: Consistency) -> Context:
     rows = []
     for p in result.parameters:
         nearest, factor = found.constrained.get(p.name, p.value), units[p.name].factor
-        if p.elastic and abs(nearest - p.value) > _NOTHING * p.standard_uncertainty:
+        if p.elastic and abs(nearest - p.value) > _MOVED * p.standard_uncertainty:
             half = (p.interval[1] - p.interval[0]) / 2
             free = pretty(value_with_uncertainty(p.value * factor, half * factor))
             rows.append((p.name, free, pretty(significant(nearest * factor)), units[p.name].name))
@@ -248,7 +198,7 @@ def _consistency(result: Identification, found: Consistency) -> Context:
 
 def _diagnosis(diagnosis: Diagnosis, result: Identification) -> Context:
     words = "The set-up comes last: it is no fault of the machine and has no share."
-    shown = ("rank", "meaning", "axis", "value", "unit", "distortion_um", "share_percent", "also")
+    shown = ("rank", "meaning", "name", "axis", "distortion_um", "share_percent", "also")
     return {
         "table": [[row[key] for key in shown] for row in _printed(diagnosis_rows(diagnosis, result))],
         "words": words if any(not fault.axis for fault in diagnosis.faults) else "",
@@ -288,6 +238,6 @@ def _repeats(result: Identification, repeats: Repeatability) -> Context:
         spread = (float(solution.standard_uncertainty[k]), float(repeats.combination_std[k]))
         uncertainty, deviation = (pretty(significant(size * unit.factor, 2)) for size in spread)
         estimate = pretty(value_with_uncertainty(value * unit.factor, half))
-        freedom = _degrees(float(solution.degrees_of_freedom[k]))
+        freedom = degrees(float(solution.degrees_of_freedom[k]))
         rows.append((pretty(shown[name]), estimate, unit.name, uncertainty, freedom, deviation))
     return {"rows": rows, "words": repeats_words(result)}

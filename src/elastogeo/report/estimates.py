@@ -7,19 +7,24 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from elastogeo.estimate import Repeatability
-from elastogeo.identify import Identification, Parameter
+from elastogeo.identify import Identification
+from elastogeo.machine import Array
 from elastogeo.report.numbers import DisplayUnit
 from elastogeo.report.style import BLUE, GREY, INK, ORANGE, SMALL, grid
 from elastogeo.report.text import display_units, label, labels
+
+_LONG = 12
+"""Names from this many letters on leave no room for the unit beside them."""
 
 
 def local_figure(result: Identification) -> Figure:
     """Local estimates from neighbouring force levels with their 95 % intervals, against the global one (Figure 4.13)."""
     shown = display_units(result)
     figure, axes = grid(len(result.parameters), 3 if len(result.parameters) != 4 else 2, 1.85)
-    for ax, parameter in zip(axes, result.parameters, strict=True):
+    bounds = result.solution.interval()
+    for ax, parameter, interval in zip(axes, result.parameters, bounds, strict=True):
         unit = shown[parameter.name]
-        _global_line(ax, parameter, unit)
+        _whole(ax, parameter.value * unit.factor, interval * unit.factor)
         for local in result.local:
             k = local.solution.labels.index(parameter.name)
             value = local.solution.values[k] * unit.factor
@@ -38,29 +43,30 @@ def repeats_figure(result: Identification, repeats: Repeatability) -> Figure:
     """Estimates from every combination of repeated runs, their mean, and its run-level 95 % interval (Figure 4.15)."""
     shown = display_units(result)
     shown_as = labels(result)
-    solution = repeats.solution
+    solution, bounds = repeats.solution, repeats.solution.interval()
     figure, axes = grid(len(solution.labels), 3 if len(solution.labels) != 4 else 2, 1.85)
     number = np.arange(1, len(repeats.combinations) + 1)
     for k, (ax, name) in enumerate(zip(axes, solution.labels, strict=True)):
         unit = shown[name]
-        low, high = solution.interval()[k] * unit.factor
-        ax.axhspan(low, high, color=ORANGE, alpha=0.18, linewidth=0, zorder=0)
-        ax.axhline(solution.values[k] * unit.factor, color=ORANGE, linewidth=1.0, linestyle=(0, (5, 2)), zorder=1)
+        _whole(ax, solution.values[k] * unit.factor, bounds[k] * unit.factor)
         ax.plot(number, repeats.combinations[:, k] * unit.factor, color=BLUE, marker="o", markersize=2.8, linestyle="")
         _label(ax, shown_as[name], unit)
     figure.supxlabel("combination of one run per level", fontsize=8.5)
     return figure
 
 
-def _global_line(ax: Axes, parameter: Parameter, unit: DisplayUnit) -> None:
-    low, high = (bound * unit.factor for bound in parameter.interval)
-    ax.axhspan(low, high, color=ORANGE, alpha=0.22, linewidth=0, zorder=0)
-    ax.axhline(parameter.value * unit.factor, color=ORANGE, linewidth=1.0, linestyle=(0, (5, 2)), zorder=1)
+def _whole(ax: Axes, value: float, interval: Array) -> None:
+    """The estimate from everything, with its interval."""
+    ax.axhspan(interval[0], interval[1], color=ORANGE, alpha=0.22, linewidth=0, zorder=0)
+    ax.axhline(value, color=ORANGE, linewidth=1.0, linestyle=(0, (5, 2)), zorder=1)
 
 
 def _label(ax: Axes, name: str, unit: DisplayUnit) -> None:
-    ax.set_title(name, loc="left", weight="bold", color=INK, pad=4)
-    ax.set_title(unit.name, loc="right", fontsize=SMALL, color=GREY, pad=4)
+    if len(name) > _LONG:
+        ax.set_title(f"{name}\n{unit.name}", loc="left", fontsize=SMALL, color=INK, pad=4)
+    else:
+        ax.set_title(name, loc="left", weight="bold", color=INK, pad=4)
+        ax.set_title(unit.name, loc="right", fontsize=SMALL, color=GREY, pad=4)
     ax.ticklabel_format(axis="y", useOffset=False)
     ax.locator_params(axis="y", nbins=5)
     ax.margins(x=0.06, y=0.12)

@@ -78,14 +78,15 @@ class WhatIfRow:
 
     Attributes
     ----------
-    force_N, what : str
+    force : str [N]
+    what : str
         A circular deviation of ISO 230-4; of a path that is no circle, the peak to peak of a run.
     before_um, after_um : str
     change_percent : str
         Negative if it gets better.
     """
 
-    force_N: str
+    force: str
     what: str
     before_um: str
     after_um: str
@@ -133,11 +134,13 @@ def diagnosis_rows(diagnosis: Diagnosis, result: Identification) -> tuple[Diagno
     result : Identification
         That it was made from.
     """
-    units = shared_units((fault.names[0], fault.unit, fault.value) for fault in diagnosis.faults)
+    factors = [_coverage(fault, result) for fault in diagnosis.faults]
+    sized = zip(diagnosis.faults, factors, strict=True)
+    units = shared_units((f.names[0], f.unit, abs(f.value) + k * f.standard_uncertainty) for f, k in sized)
     machine = [fault for fault in diagnosis.faults if fault.axis]
     rows = []
-    for fault in diagnosis.faults:
-        shown, unit, factor = described(fault, result), units[fault.names[0]], _coverage(fault, result)
+    for fault, factor in zip(diagnosis.faults, factors, strict=True):
+        shown, unit = described(fault, result), units[fault.names[0]]
         rows.append(
             DiagnosisRow(
                 rank=str(machine.index(fault) + 1) if fault in machine else "",
@@ -159,7 +162,7 @@ def comparison_rows(before_after: BeforeAfter) -> tuple[ComparisonRow, ...]:
     """The rows of a comparison of two tests, the surest change first."""
     kinds: dict[str, float] = {}
     for found in before_after.differences:
-        kinds[found.unit] = max(kinds.get(found.unit, 0.0), abs(found.before), abs(found.after))
+        kinds[found.unit] = max(kinds.get(found.unit, 0.0), abs(found.before), abs(found.after), *map(abs, found.interval))
     count = len(before_after.differences)
     return tuple(
         _comparison_row(before_after, found, display_unit(found.unit, kinds[found.unit]), count)
@@ -204,7 +207,7 @@ def _comparison_row(before_after: BeforeAfter, found: Difference, unit: DisplayU
 
 def _what_if_row(force: float, what: str, before: float, after: float) -> WhatIfRow:
     return WhatIfRow(
-        force_N=f"{force:g}",
+        force=f"{force:g}",
         what=what,
         before_um=in_micrometres(before),
         after_um=in_micrometres(after),

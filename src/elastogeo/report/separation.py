@@ -17,6 +17,8 @@ from elastogeo.report.traces import of_level
 
 _TOGETHER, _ELASTIC, _GEOMETRIC = "compliance and geometry", "compliance alone", "geometry alone"
 
+_BELOW_TITLES = 0.93
+
 
 def has_both(result: Identification) -> bool:
     """Whether compliance and geometry of the machine were both identified, and told apart."""
@@ -30,24 +32,18 @@ def separation_figure(result: Identification) -> Figure:
     parts = _parts(result, list(first.values()))
     colours = force_colours(list(first))
     draw = _around if is_angular(result) else _along
-    figure = new_figure(2.95 if is_angular(result) else 2.4)
+    figure = new_figure(3.1 if is_angular(result) else 2.6, top=_BELOW_TITLES)
     axes = list(figure.subplots(1, 3, sharex=True, sharey=True))
-    draw(axes, result, first, parts, colours)
+    note = draw(axes, result, first, parts, colours)
     highest = max(first, key=abs)
     for ax, (what, values) in zip(axes, parts.items(), strict=True):
         span = significant(float(np.ptp(values[first[highest].run])) * UM)
-        ax.set_title(f"{what}\n", weight="bold")
-        ax.annotate(
-            f"{span} µm peak to peak at {highest:g} N",
-            (0.5, 1),
-            (0, 6),
-            xycoords="axes fraction",
-            textcoords="offset points",
-            ha="center",
-            fontsize=SMALL,
-        )
+        ax.set_title(f"{what}\n{span} µm peak to peak at {highest:g} N", fontsize=SMALL, pad=13)
     handles = [Line2D([], [], color=colour, linewidth=2.0, label=f"{force:g} N") for force, colour in colours.items()]
-    figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), 8), columnspacing=1.4)
+    columns = min(len(handles), 8)
+    figure.legend(
+        handles=handles, loc="outside lower center", ncols=columns, columnspacing=1.4, title=note, title_fontsize=SMALL
+    )
     return figure
 
 
@@ -75,14 +71,14 @@ def _around(
     traces: dict[float, Trace],
     parts: dict[str, dict[str, Array]],
     colours: dict[float, str],
-) -> None:
+) -> str:
     every = np.concatenate([values for part in parts.values() for values in part.values()])
     scale: Scale = scale_for(every, nominal_radius(result) or 1.0)
     for ax, part in zip(axes, parts.values(), strict=True):
         rings(ax, scale)
         for force, trace in traces.items():
             ax.plot(*around(trace.pose, part[trace.run], scale, 3 * len(traces)), color=colours[force], zorder=3)
-    division_note(axes[0], scale, nominal_radius(result) is not None)
+    return division_note(scale, nominal_radius(result) is not None)
 
 
 def _along(
@@ -91,7 +87,7 @@ def _along(
     traces: dict[float, Trace],
     parts: dict[str, dict[str, Array]],
     colours: dict[float, str],
-) -> None:
+) -> str:
     label, factor = pose_axis(result)
     for ax, part in zip(axes, parts.values(), strict=True):
         for force, trace in traces.items():
@@ -99,3 +95,4 @@ def _along(
             ax.plot(pose * factor, values, color=colours[force])
         ax.set_xlabel(label)
     axes[0].set_ylabel("deviation (µm)")
+    return ""

@@ -14,6 +14,7 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, to_hex
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from elastogeo.machine import Array
 
@@ -64,9 +65,9 @@ def house_style(outlines: bool = False) -> Iterator[None]:
         yield
 
 
-def new_figure(height: float) -> Figure:
-    """An empty figure of the house's width and this height [in]."""
-    return Figure(figsize=(WIDTH, height), layout="constrained")
+def new_figure(height: float, top: float = 1.0) -> Figure:
+    """An empty figure of the house's width and this height [in]; it is laid out below `top`, a part of the height."""
+    return Figure(figsize=(WIDTH, height), layout=ConstrainedLayoutEngine(rect=(0, 0, 1, top)))
 
 
 def grid(count: int, columns: int, height: float, sharey: bool = False) -> tuple[Figure, list[Axes]]:

@@ -77,7 +77,7 @@ def all_separated(result: Identification) -> bool:
 
 def display_units(result: Identification) -> dict[str, DisplayUnit]:
     """The unit in which each parameter is shown, by its name; parameters of one kind share theirs, to compare."""
-    return shared_units((p.name, p.unit, p.value) for p in result.parameters)
+    return shared_units((p.name, p.unit, max(map(abs, p.interval))) for p in result.parameters)
 
 
 def shared_units(values: Iterable[tuple[str, str, float]]) -> dict[str, DisplayUnit]:
@@ -85,7 +85,7 @@ def shared_units(values: Iterable[tuple[str, str, float]]) -> dict[str, DisplayU
 
     Parameters
     ----------
-    values : iterable of (name, unit, value)
+    values : iterable of (name, unit, magnitude)
     """
     values = list(values)
     largest: dict[str, float] = {}

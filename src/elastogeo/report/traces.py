@@ -15,7 +15,7 @@ from elastogeo.identify.systems import same_force
 from elastogeo.report.circles import (
     Scale,
     around,
-    division_note,
+    division_bar,
     is_angular,
     nominal_radius,
     pose_axis,
@@ -35,7 +35,7 @@ def traces_figure(result: Identification) -> Figure:
 def residuals_figure(result: Identification) -> Figure:
     """Measured minus predicted readings [µm] of every level."""
     levels = [level.force for level in result.levels]
-    figure, axes = grid(len(levels), 2 if len(levels) > 3 else 1, 1.25, sharey=True)
+    figure, axes = grid(len(levels), 2 if len(levels) > 3 else 1, 1.25 if len(levels) > 1 else 2.0, sharey=True)
     largest = max(float(np.abs(t.measured - t.predicted).max()) for t in result.traces) * UM or 1.0
     label, factor = pose_axis(result)
     for ax, level in zip(axes, result.levels, strict=True):
@@ -68,7 +68,7 @@ def _around(result: Identification) -> Figure:
     scale = scale_for(every, nominal_radius(result) or 1.0)
     rings(ax, scale)
     colours = _draw_levels(ax, result, scale)
-    division_note(ax, scale, nominal_radius(result) is not None)
+    division_bar(ax, scale, nominal_radius(result) is not None)
     _legend(ax, colours, result.reference_force)
     return figure
 

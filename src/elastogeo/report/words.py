@@ -32,7 +32,7 @@ def confounding_words(found: Confounding) -> list[str]:
     if groups:
         words.append(
             "Parameters in one of the groups below always produce the same trace but for its size. No amount of readings of "
-            "this test tells them apart; what is estimated is a sum, given under the name that was retained."
+            "this test tells them apart; what is estimated is the sum that is given below."
         )
     if asked - len(found.null) - sum(len(group) - 1 for group in groups) > found.rank:
         words.append(
@@ -48,10 +48,11 @@ def banner(result: Identification) -> list[str]:
     if all_separated(result):
         return []
     return [
-        "Compliance and geometry are not told apart. At the forces of this test a soft machine and a crooked one make the same "
-        "trace. What is given below under a sum belongs to the sum: no member of it may be named the cause, and none may be "
-        "corrected on the ground of this test.",
-        "What to do: repeat the test at a second, clearly different force, and ask again.",
+        "Compliance and geometry are not told apart. At the forces of this test a soft machine and a crooked one make the "
+        "same trace. What is given below under a sum belongs to the sum: no member of it may be named the cause, and none "
+        "may be corrected on the ground of this test.",
+        "What to do: repeat the test at a second, clearly different force, and ask again. "
+        "(Coefficients are for mm, N and rad.)",
     ]
 
 
@@ -61,8 +62,9 @@ def uncertainty_words(result: Identification) -> list[str]:
         ratios = result.solution.standard_uncertainty / result.naive.standard_uncertainty
         words = [
             f"The uncertainties come from the scatter of {len(result.traces)} runs, each of which counts once, however many "
-            f"readings it has. They are {significant(float(ratios.min()), 2)} to {significant(float(ratios.max()), 2)} times "
-            f"those that would count on independent readings: readings along one trace share its errors."
+            f"readings it has. They are {significant(float(ratios.min()), 2)} to {significant(float(ratios.max()), 2)} "
+            f"times those that would count on independent readings: the errors along one trace belong together, and what "
+            f"every run leaves over alike does not scatter."
         ]
     else:
         checked = next((check.sentence for check in result.verdict if check.name == "uncertainty by run"), None)
@@ -104,8 +106,8 @@ def models_words(models: Comparison) -> list[str]:
     found = next(model for model in models.models if model.name == models.supported)
     exponent = "" if found.exponent is None else f" (exponent {found.exponent:.2f})"
     words = [
-        f"The data support a {found.name} compliance{exponent}. What decides is how well a model predicts force levels that it "
-        f"has not seen: the richer model must be better there, surely (95 % over the levels) and by a gain worth having."
+        f"The data support a {found.name} compliance{exponent}. What decides is how well a model predicts force levels that "
+        f"it has not seen: the richer model must be better there, surely (95 % over the levels) and by a gain worth having."
     ]
     if any(model.left_out_level is None for model in models.models):
         words.append("Where an error at left-out runs or levels is missing, the others do not determine that model.")
@@ -122,8 +124,8 @@ def keep_in_mind(result: Identification) -> list[str]:
     scatter = "run to run" if result.by_run else "reading to reading, independently"
     stated = influences(result)
     held = (
-        f"The intervals hold what scatters from {scatter}, and {listed(stated)}. Any other influence that is the same in all "
-        f"readings is not in them."
+        f"The intervals hold what scatters from {scatter}, and {listed(stated)}. Any other influence that is the same in "
+        f"all readings is not in them."
         if stated
         else f"The intervals hold what scatters from {scatter}, and no more. What is the same in all readings (the force "
         f"calibration, the instrument's scale, the set-up, the temperature) is not in them."
@@ -131,11 +133,9 @@ def keep_in_mind(result: Identification) -> list[str]:
     words = [held, REPEATABILITY]
     if any(len(p.stands_for) > 1 and p.elastic and p.separated for p in result.parameters):
         words.append("Compliances here are equivalent ones: each is the sum of what it stands for, not of one joint alone.")
-    if structured(result):
-        words.append(
-            f"The residuals have structure: where the model misses, its structure decides, not its size. {TRULY_LARGER}"
-        )
-    words += [_negative(p) for p in result.parameters if _impossible(p)]
+    words += structure_words(result)
+    if result.consistency is None:
+        words += [_negative(p) for p in result.parameters if _impossible(p)]
     gains = [name for name in named if _GAIN.fullmatch(name)]
     if gains:
         verb, it = ("carries", "its sum") if len(gains) == 1 else ("carry", "their common part")
@@ -154,8 +154,8 @@ def structure_words(result: Identification) -> list[str]:
         return []
     if result.by_run:
         return [
-            "The residuals have structure (see the verdict). U covers what of it differs from run to run; what is the same in "
-            "all runs shifts the values and is not in U."
+            "The residuals have structure (see the verdict). U covers what of it differs from run to run; what is the same "
+            "in all runs shifts the values and is not in U."
         ]
     return ["The true uncertainty is larger than U: the residuals have structure (see the verdict), which U does not cover."]
 
@@ -174,15 +174,16 @@ def repeats_words(result: Identification) -> list[str]:
     words = [f"{counts}. {REPEATABILITY}"]
     if result.reference_force is not None:
         words.append(
-            f"The readings at {result.reference_force:g} N are subtracted from all runs, so the scatter of that reference is in "
-            f"every one of them alike and is not contained here."
+            f"The readings at {result.reference_force:g} N are subtracted from all runs, so the scatter of that reference "
+            f"is in every one of them alike and the repeats do not show it. It is added as if the reference scattered like "
+            f"the repeated runs, which may be too much, not too little."
         )
     number = len(result.repeats.combinations)
     return [
         *words,
-        f"The {number} combinations of one run per level share runs and are not independent. Their standard deviation is about "
-        f"that of one combination; dividing it by the root of {number} would claim far too much. The standard uncertainty "
-        f"given here comes from the scatter of the runs, with Welch-Satterthwaite degrees of freedom.",
+        f"The {number} combinations of one run per level share runs and are not independent. Their standard deviation is "
+        f"about that of one combination; dividing it by the root of {number} would claim far too much. The standard "
+        f"uncertainty given here comes from the scatter of the runs, with Welch-Satterthwaite degrees of freedom.",
     ]
 
 
@@ -197,14 +198,14 @@ def _geometry_words(each: Mapping[str, float], geometric: list[str]) -> str:
     if not moved:
         least = min(geometric, key=lambda name: each[name])
         return (
-            f"The geometry is the same at all forces within its uncertainty: the parameter that differs most, {least}, has p = "
-            f"{probability(each[least])}. Close force levels couple compliance and geometry strongly; a drift within the "
-            f"intervals says nothing of the machine."
+            f"The geometry is the same at all forces within its uncertainty: the parameter that differs most, {least}, has "
+            f"p = {probability(each[least])}. Close force levels couple compliance and geometry strongly; a drift within "
+            f"the intervals says nothing of the machine."
         )
     return (
         f"{listed(moved)} {'changes' if len(moved) == 1 else 'change'} with the force by more than the uncertainty (p = "
-        f"{probability(min(each[name] for name in moved))}). Geometry cannot do that: the compliance model is too simple, and "
-        f"geometry is made to explain what it leaves."
+        f"{probability(min(each[name] for name in moved))}). Geometry cannot do that: the compliance model is too simple, "
+        f"and geometry is made to explain what it leaves."
     )
 
 

@@ -13,8 +13,8 @@ from elastogeo.sources.situation import Situation
 from elastogeo.sources.source import Source
 
 BLOCK_READINGS = 8192
-"""Readings in a block: enough that what is done once a block does not count, few enough that their memory is
-used again for the next block rather than given back."""
+"""Readings in a block: enough that what is done once a block hardly counts, few enough for the cache, and for the C library
+to keep their memory for the next block rather than give it back to the system."""
 
 
 def design_rows(sources: Sequence[Source], machine: Machine, observations: Observations) -> Array:
@@ -68,6 +68,29 @@ def design_blocks(
         for first in range(0, max(length, 1), readings):
             part = {quantity: values[first : first + readings] for quantity, values in run.columns.items()}
             yield design_rows(sources, machine, setup.observe(machine, replace(run, columns=part)))
+
+
+def column_ceilings(sources: Sequence[Source], machine: Machine, observations: Observations) -> Array:
+    """The length that each column of the design would have if no moment and no component cancelled, shape (p,).
+
+    What is 1e-12 of that is rounding error: a source that moves no reading, whatever its unit.
+    """
+    situation = Situation(machine, observations)
+    lever = max(
+        float(np.linalg.norm(situation.frames.point - joint.motion.origin, axis=1).max())
+        for joint in situation.frames.joints.values()
+    )
+    force = float(situation.force().max())
+    moment = force * lever + float(np.abs(observations.wrench[:, 3:]).max())
+
+    def ceiling(source: Source) -> float:
+        arm = lever if source.component >= 3 else 1.0
+        if source.load is None:
+            return arm * float(np.abs(source.driver(situation)).max())
+        load = moment if source.load >= 3 else force
+        return float(arm * load ** min(source.force_degree, 1.0) * force ** max(source.force_degree - 1.0, 0.0))
+
+    return np.asarray(np.array([ceiling(source) for source in sources]) * np.sqrt(len(observations)))
 
 
 def linear_response(values: Mapping[Source, float], machine: Machine, observations: Observations) -> Array:

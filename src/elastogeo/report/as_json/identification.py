@@ -49,7 +49,10 @@ SHARED_RUNS = (
     "it by the root of their number would claim far too much. standard_uncertainty comes from the scatter of the runs and "
     "is that of the estimate from all of them; it is a repeatability, not a full uncertainty."
 )
-SHARED_REFERENCE = "The scatter of the reference run, which all differences share, is not contained."
+SHARED_REFERENCE = (
+    "The scatter of the reference, which all differences share and the repeats do not show, is added as if the reference "
+    "scattered like the repeated runs."
+)
 
 
 def identification_json(result: Identification) -> dict[str, Any]:
