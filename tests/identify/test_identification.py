@@ -113,8 +113,8 @@ def test_a_question_that_moves_no_reading_is_refused(make_test: MakeTest) -> Non
 
 
 def test_too_few_readings_are_refused(make_test: MakeTest) -> None:
-    with pytest.raises(UnsupportedError, match="4 readings cannot give"):
-        identify(make_test("wFYXt", readings=4))
+    with pytest.raises(UnsupportedError, match="3 readings cannot give"):
+        identify(make_test("wFYXt", readings=3))
 
 
 def test_a_reference_that_was_not_measured_is_refused(make_test: MakeTest) -> None:

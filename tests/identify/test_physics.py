@@ -319,5 +319,5 @@ def _state_of(
         read.append(run.with_reading(reading + 1e-6 * random.standard_normal(len(run))))
     systems = run_systems(sources, test.machine, read)
     factor = merged(systems.runs)
-    found = confounding(factor, systems.ceilings)
+    found = confounding(factor, ceilings=systems.ceilings)
     return consistency(sources, found, solve(factor, found.retained)).state

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.special import fdtrc
 
 from elastogeo.errors import DegreesOfFreedomError, UnsupportedError
-from elastogeo.estimate import Factor, Solution, merge, select, solve
+from elastogeo.estimate import Factor, Solution, effective_degrees_of_freedom, merge, select, solve
 from elastogeo.machine import Array
 
 SIGNIFICANT = 0.05
@@ -21,6 +21,9 @@ SIGNIFICANT = 0.05
 
 _WITHIN = 1e-8
 """Least singular value of a run's scaled columns that counts as a direction of its traces."""
+
+_KNOWN = 1e9
+"""Degrees of freedom of a covariance that is known: the F-distribution wants a number."""
 
 _ROUNDING = 1e-12
 """Share of the readings that is their rounding error at most: less scatter than that is none."""
@@ -35,8 +38,10 @@ class Change:
     labels : tuple of str
         Parameters whose differences are tested.
     statistic : float
-        F-distributed with `q` and `degrees_of_freedom` if nothing changed: `d^T V^-1 d / q`, with V from the two tests; of
-        local estimates over the variance that the runs show beyond these very differences.
+        F-distributed with `q` and `degrees_of_freedom` if nothing changed. Of local estimates, `d^T V^-1 d / q` over the
+        variance that the runs show beyond these very differences; of two tests, Hotelling's, with V from both. **If their
+        degrees of freedom are not twice the differences, V is not known well enough as a whole**: then it is the surest
+        `(d / u)^2`, and the p-value allows for their number (Bonferroni).
     q : int
         How many differences.
     degrees_of_freedom : float
@@ -103,7 +108,8 @@ def local_change(runs: Sequence[Factor], labels: Sequence[str], choices: Sequenc
     Returns
     -------
     Change
-        Of each local estimate against the first; the joint covariance has the runs they share.
+        Of each local estimate against the first; the joint covariance has the runs they share. The scatter between runs
+        counts as equally large in all shapes of a trace.
 
     Raises
     ------
@@ -149,8 +155,25 @@ def difference(one: Solution, other: Solution, shared: Array | None = None) -> C
     covariance = one.covariance + other.covariance - (0.0 if shared is None else 2 * shared)
     scale = np.sqrt(np.diag(covariance))
     delta = (other.values - one.values) / scale
-    freedom = min(float(one.degrees_of_freedom.min()), float(other.degrees_of_freedom.min()))
-    return _joint(delta, covariance / np.outer(scale, scale), freedom, one.labels)
+    freedom = difference_freedom(one, other)
+    each = fdtrc(1, freedom, delta**2)
+    p_values = dict(zip(one.labels, map(float, each), strict=True))
+    value, q = _quadratic(delta, covariance / np.outer(scale, scale))
+    least = float(freedom.min())
+    rest = least - q + 1
+    if rest < q:
+        surest = int(np.argmin(each))
+        p_value = min(1.0, len(each) * float(each[surest]))
+        return Change(one.labels, float(delta[surest] ** 2), len(each), float(freedom[surest]), p_value, p_values)
+    statistic = value / q * rest / least
+    return Change(one.labels, statistic, q, rest, float(fdtrc(q, rest, statistic)), p_values)
+
+
+def difference_freedom(one: Solution, other: Solution) -> Array:
+    """Effective degrees of freedom of each difference of two independent estimates, shape (p,) (JCGM 100, G.2b)."""
+    contributions = np.column_stack([one.standard_uncertainty, other.standard_uncertainty])
+    degrees = np.column_stack([one.degrees_of_freedom, other.degrees_of_freedom])
+    return np.minimum(effective_degrees_of_freedom(contributions, degrees), _KNOWN)
 
 
 def _shared(grams: Sequence[Array], one: Sequence[int], other: Sequence[int]) -> Array:
@@ -181,12 +204,6 @@ def _tested(values: Array, covariance: Array, left: float, freedom: float, label
     each = {label: judged(range(k, len(delta), p)) for k, label in enumerate(labels)}
     p_values = {label: float(fdtrc(size, others, value)) for label, (value, size, others) in each.items()}
     return Change(tuple(labels), statistic, q, rest, float(fdtrc(q, rest, statistic)), p_values)
-
-
-def _joint(delta: Array, correlation: Array, freedom: float, labels: Sequence[str]) -> Change:
-    value, q = _quadratic(delta, correlation)
-    each = {label: float(fdtrc(1, freedom, d**2)) for label, d in zip(labels, delta, strict=True)}
-    return Change(tuple(labels), value / q, q, freedom, float(fdtrc(q, freedom, value / q)), each)
 
 
 def _quadratic(delta: Array, correlation: Array) -> tuple[float, int]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from elastogeo.errors import UnsupportedError
 from elastogeo.estimate import Solution, coverage_factor
-from elastogeo.identify.change import SIGNIFICANT, Change, difference
+from elastogeo.identify.change import SIGNIFICANT, Change, difference, difference_freedom
 from elastogeo.identify.result import Identification
 from elastogeo.identify.verdict import Check
 
@@ -101,7 +101,7 @@ def _difference(before: Identification, after: Identification, name: str, joint:
     one, other = (_combined(result, [name]) for result in (before, after))
     change = float(other.values[0] - one.values[0])
     uncertainty = float(np.sqrt(one.covariance[0, 0] + other.covariance[0, 0]))
-    half = float(coverage_factor(np.array(joint.degrees_of_freedom))) * uncertainty
+    half = float(coverage_factor(difference_freedom(one, other))[0]) * uncertainty
     return Difference(
         name=name,
         unit=next(p.unit for p in before.parameters if p.name == name),
