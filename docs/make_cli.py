@@ -11,8 +11,8 @@ INTRODUCTION = """\
 # Command line
 
 Exit codes: 0 done; 1 the data do not support what was asked, the message says why; 2 wrong input or usage, one error on
-standard error. `--json` prints one object on standard output and nothing else (see [Files](formats.md)). Colours follow `NO_COLOR`.
-`elastogeo --install-completion` sets up completion for your shell.
+standard error. `--json` prints one object on standard output and nothing else (see [Files](formats.md)). Colours follow
+`NO_COLOR`. `elastogeo --install-completion` sets up completion for your shell.
 
 This page is written from the help texts by `docs/make_cli.py`.
 """

@@ -130,7 +130,7 @@ def test_a_machine_file_is_found_beside_the_document_and_keeps_every_number(tmp_
     assert machine.tool == pytest.approx((0.001, 0.002, 0.003))
     assert machine.joints[1].offset == (1.5, 0.0, -2.0)
     assert machine.joints[1].travel == (-1000.0, 1000.0)
-    with pytest.raises(FormatError, match="there is no machine 'nowhere'.*hermle_c50, huron_kx8"):
+    with pytest.raises(FormatError, match=r"there is no machine 'nowhere'.*hermle_c50, huron_kx8"):
         find_machine("nowhere", tmp_path)
 
 

@@ -58,7 +58,7 @@ def test_a_recorded_run_is_never_overwritten(folder):
     (folder / "runs").mkdir()
     (folder / "runs" / "742N-1.csv").write_text("mine")
     test, truth = simulated(folder)
-    with pytest.raises(FormatError, match="742N-1.csv is there already.*never overwritten"):
+    with pytest.raises(FormatError, match=r"742N-1\.csv is there already.*never overwritten"):
         write_runs(folder, test, truth.seed)
     assert (folder / "runs" / "742N-1.csv").read_text() == "mine"
     assert len(list((folder / "runs").iterdir())) == 1

@@ -197,7 +197,7 @@ def test_two_tests_of_an_unchanged_machine_alarm_at_the_stated_rate(noise: str, 
 
 
 def test_with_the_scatter_of_readings_all_differences_are_judged_together(systems: Systems) -> None:
-    """White noise, counted by reading: Hotelling's statistic, 5 % of alarms; counted so on runs of a structure, nearly all."""
+    """White noise, counted by reading: Hotelling's statistic, 5 % of alarms; of runs that have a structure, nearly all."""
     random = np.random.default_rng(13)
     for noise, low, high in (("white", lower(0.05, DRAWS, 2), upper(0.05, DRAWS, 2)), ("of the run", 0.9, 1.0)):
         found = []
@@ -305,7 +305,7 @@ def test_tests_of_different_machines_cannot_be_compared(make_test: MakeTest) -> 
 
 def test_tests_without_a_common_parameter_cannot_be_compared(make_test: MakeTest) -> None:
     results = [
-        identify(simulate(make_test("wFYXt", [100.0, 200.0], parameters=asked), {}, Imperfection(noise=NOISE)))
+        identify(simulate(make_test("wFYXt", [100.0, 200.0], parameters=asked), {asked[0]: 1e-5}, Imperfection(noise=NOISE)))
         for asked in (["C_XXX", "C_YYY"], ["E_XX1"])
     ]
     with pytest.raises(UnsupportedError, match="the tests determine no parameter in common"):

@@ -336,8 +336,8 @@ def _repeats(systems: Systems, retained: Sequence[str]) -> Repeatability | None:
 def _of_reference(systems: Systems, repeated: Mapping[str, Sequence[RunSystem]], retained: Sequence[str]) -> Common:
     """What the scatter of the reference adds: it enters every difference alike, and the repeats do not show it.
 
-    The reference counts as scattering like the repeated runs, reading by reading. It was applied with the least force and may
-    scatter less; then this is too much, never too little.
+    The reference counts as scattering like the repeated runs, reading by reading. It was applied with the least force and
+    may scatter less; then this is too much, never too little.
     """
     runs = [run for chosen in repeated.values() for run in chosen]
     designs = [run.design_of(retained) for run in runs]
