@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, Parameters, Prefer, Reference, TestPath
+from elastogeo.cli.options import AsJson, Parameters, Prefer, Reciprocal, Reference, TestPath
 
 
 def confounding(
@@ -14,6 +14,7 @@ def confounding(
     parameters: Parameters = None,
     prefer: Prefer = None,
     reference: Reference = None,
+    reciprocal: Reciprocal = False,
     planned: Annotated[
         int, typer.Option(help="Readings of a full turn to assume for every run, instead of reading the run files.")
     ] = 0,
@@ -27,13 +28,15 @@ def confounding(
     """
     from elastogeo.cli import screen
     from elastogeo.formats import full_turn, read_test
-    from elastogeo.identify import confounding_of, systems_of, with_question
+    from elastogeo.identify import confounding_of, systems_of, what_reciprocity_buys, with_question
     from elastogeo.report import confounding_json
 
     planned_test = read_test(test, full_turn(planned)) if planned else read_test(test)
-    asked = with_question(planned_test, parameters, prefer, reference)
+    asked = with_question(planned_test, parameters, prefer, reference, reciprocal=reciprocal)
     found = confounding_of(asked, systems_of(asked))
     if as_json:
         screen.show_json(confounding_json(found, asked))
     else:
         screen.show_confounding(found)
+        if reciprocal:
+            screen.say(what_reciprocity_buys(asked).sentence)

@@ -7,7 +7,18 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, Parameters, Prefer, Reference, TestPath, refuse_if
+from elastogeo.cli.options import (
+    AsJson,
+    Levels,
+    Parameters,
+    Prefer,
+    Reciprocal,
+    Reference,
+    Robust,
+    TestPath,
+    WithoutLevels,
+    refuse_if,
+)
 
 
 def identify(
@@ -15,6 +26,10 @@ def identify(
     parameters: Parameters = None,
     prefer: Prefer = None,
     reference: Reference = None,
+    level: Levels = None,
+    without_level: WithoutLevels = None,
+    reciprocal: Reciprocal = False,
+    robust: Robust = False,
     report: Annotated[Path | None, typer.Option(help="Folder to write the report and its figures to.")] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -31,7 +46,7 @@ def identify(
     from elastogeo.report import identification_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = with_question(read_test(test), parameters, prefer, reference)
+        asked = with_question(read_test(test), parameters, prefer, reference, level, without_level, reciprocal, robust)
         step("identifying")
         result = identified(asked)
         written = screen.write_report(result, report, step) if report else None

@@ -25,6 +25,13 @@ Prefer = Annotated[
     typer.Option("--prefer", help="Parameter to retain before others that cannot be told from it; may be repeated."),
 ]
 
+Levels = Annotated[list[float] | None, typer.Option("--level", help="Force level [N] to use alone; may be repeated.")]
+WithoutLevels = Annotated[
+    list[float] | None, typer.Option("--without-level", help="Force level [N] to leave out; may be repeated.")
+]
+Reciprocal = Annotated[bool, typer.Option("--reciprocal", help="Take each joint as symmetric: C_dfj and C_fdj are one.")]
+Robust = Annotated[bool, typer.Option("--robust", help="Let outlying readings count less (Huber).")]
+
 
 def refuse_if(verdict: Iterable[Check]) -> None:
     """End with exit code 1 if a decisive check of a verdict failed: the data do not support what was asked."""

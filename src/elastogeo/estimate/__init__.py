@@ -13,11 +13,13 @@ from elastogeo.estimate.propagation import (
 )
 from elastogeo.estimate.refinement import refine
 from elastogeo.estimate.repeats import Common, Repeatability, repeatability
+from elastogeo.estimate.robust import HUBER, huber_weights
 from elastogeo.estimate.solution import SOLVABLE, Noise, Solution, minimum_norm, solve, white_noise
 
 __all__ = [
     "BLOCK_ROWS",
     "DISTRIBUTIONS",
+    "HUBER",
     "NULL_TOLERANCE",
     "RANK_TOLERANCE",
     "SOLVABLE",
@@ -35,6 +37,7 @@ __all__ = [
     "empty_factor",
     "factor_blocks",
     "first_order",
+    "huber_weights",
     "merge",
     "minimum_norm",
     "monte_carlo",

@@ -13,6 +13,7 @@ from elastogeo.identify.identification import (
     identify,
     local_estimates,
     systems_of,
+    what_reciprocity_buys,
     with_question,
 )
 from elastogeo.identify.influences import Effect, effect, effects
@@ -81,5 +82,6 @@ __all__ = [
     "systems_of",
     "uncertainty_budget",
     "what_if",
+    "what_reciprocity_buys",
     "with_question",
 ]

@@ -187,7 +187,8 @@ def _shifted(systems: Systems, solution: Solution, effect: Effect, norms: Array)
     if effect.shift is None:
         return np.zeros((len(systems.runs), len(norms)))
     pairs = zip(systems.runs, effect.shift, strict=True)
-    return np.array([(run.design_of(solution.labels) / norms).T @ shift for run, shift in pairs])
+    counted = ((run, shift if run.weights is None else run.weights * shift) for run, shift in pairs)
+    return np.array([(run.design_of(solution.labels) / norms).T @ shift for run, shift in counted])
 
 
 def _sensitivity(systems: Systems, solution: Solution, effect: Effect, runs: _Moments) -> Array:

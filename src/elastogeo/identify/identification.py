@@ -22,28 +22,31 @@ from elastogeo.estimate import (
     solve,
     solve_by_run,
 )
-from elastogeo.identify.budget import Budget, uncertainty_budget
+from elastogeo.identify.budget import Budget, agreement, uncertainty_budget
 from elastogeo.identify.change import Change, local_change, run_dispersion
 from elastogeo.identify.fit import fitness, rmse, strongest_harmonic
 from elastogeo.identify.influences import Effect, effects
 from elastogeo.identify.models import compare_models
-from elastogeo.identify.physics import consistency_of
+from elastogeo.identify.physics import Reciprocity, consistency_of, reciprocal_sources, reciprocity
 from elastogeo.identify.preference import retaining_order
 from elastogeo.identify.result import Identification, Level, Local, Parameter, Pattern, Trace
-from elastogeo.identify.systems import RunSystem, Systems, merged, noise_of, run_systems, same_force
+from elastogeo.identify.robust import downweighted
+from elastogeo.identify.systems import RunSystem, Systems, force_levels, merged, noise_of, run_systems, same_force
 from elastogeo.identify.verdict import (
     Check,
     above_resolution,
     conditioned,
+    first_order_enough,
     forces_distinct,
     geometry_constant,
     identifiable,
     model_adequate,
+    outliers,
     residuals_unstructured,
     separated,
     uncertainty_by_run,
 )
-from elastogeo.observe import MachineTest, Question
+from elastogeo.observe import MachineTest, Observations, Question
 from elastogeo.sources import Source, select_sources
 
 LEVELS_FOR_MODELS = 3
@@ -70,6 +73,8 @@ def identify(test: MachineTest) -> Identification:
     """
     systems = systems_of(test)
     found = confounding_of(test, systems)
+    if test.question.robust:
+        systems = downweighted(systems, found.retained)
     return _assessed(_identified(test, systems, found), systems)
 
 
@@ -106,6 +111,9 @@ def _assessed(result: Identification, systems: Systems) -> Identification:
     elastic = any(p.elastic for p in parameters) and all(p.separated for p in parameters)
     if elastic and not systems.references and len(systems.levels) >= LEVELS_FOR_MODELS:
         result = replace(result, models=compare_models(result.test.machine, systems, result.confounding.retained))
+    effects_known = effects_of(result.test, systems)
+    if effects_known:
+        result = replace(result, agreement=agreement(systems, result.solution, effects_known, result.budget))
     physics = None
     if elastic:
         result, physics = _held_against_physics(result)
@@ -118,6 +126,8 @@ def _assessed(result: Identification, systems: Systems) -> Identification:
         conditioned(result.confounding),
         residuals_unstructured(harmonics, result.rmse, result.by_run),
         uncertainty_by_run(result.by_run, len(systems.runs), bool(systems.references)),
+        first_order_enough(result.agreement, result.solution.labels) if result.agreement else None,
+        outliers([run.weights for run in systems.runs if run.weights is not None]) if result.test.question.robust else None,
         above_resolution({p.name: abs(p.peak_to_peak) for p in parameters}, result.test.resolution),
         geometry_constant(result.local_change, geometric) if result.local_change and geometric else None,
         model_adequate(result.models) if result.models else None,
@@ -140,26 +150,61 @@ def with_question(
     parameters: Sequence[str] | None = None,
     prefer: Sequence[str] | None = None,
     reference_force: float | None = None,
+    levels: Sequence[float] | None = None,
+    without_levels: Sequence[float] | None = None,
+    reciprocal: bool = False,
+    robust: bool = False,
 ) -> MachineTest:
-    """The test with another question: other parameters, preferences or reference, or its own where none are given.
+    """The test with another question: its own where nothing else is given.
 
     A reference force that is not a number (NaN) means that no level is taken off.
     """
     question = test.question
     reference = question.reference_force if reference_force is None else reference_force
     asked = Question(
-        parameters=tuple(parameters) if parameters else question.parameters,
+        parameters=tuple(parameters or question.parameters),
         reference_force=None if reference is not None and isnan(reference) else reference,
-        prefer=tuple(prefer) if prefer else question.prefer,
+        prefer=tuple(prefer or question.prefer),
+        levels=tuple(levels or question.levels),
+        without_levels=tuple(without_levels or question.without_levels),
+        reciprocal=reciprocal or question.reciprocal,
+        robust=robust or question.robust,
     )
     return replace(test, question=asked)
 
 
 def systems_of(test: MachineTest) -> Systems:
     """The linear systems that a test and its question amount to."""
-    question = test.question
-    sources = select_sources(test.machine, question.parameters)
-    return run_systems(sources, test.machine, test.observations(), question.reference_force)
+    sources = sources_of(test)
+    observations = chosen_observations(test.observations(), test.question)
+    return run_systems(sources, test.machine, observations, test.question.reference_force)
+
+
+def sources_of(test: MachineTest) -> tuple[Source, ...]:
+    """The error sources that a test's question asks for."""
+    sources = select_sources(test.machine, test.question.parameters)
+    return reciprocal_sources(sources) if test.question.reciprocal else sources
+
+
+def chosen_observations(observations: Sequence[Observations], question: Question) -> tuple[Observations, ...]:
+    """The runs at the force levels that a question wants; the reference stays.
+
+    Raises
+    ------
+    InputError
+        If it names a level at which no run is.
+    """
+    forces = force_levels(run.force for run in observations)
+    for level in (*question.levels, *question.without_levels):
+        if not any(same_force(level, force) for force in forces):
+            raise InputError(f"no run has the force {level:g} N; there are {', '.join(f'{force:g}' for force in forces)} N")
+    kept = (*question.levels, *(() if question.reference_force is None else (question.reference_force,)))
+    return tuple(
+        run
+        for run in observations
+        if (not question.levels or any(same_force(run.force, level) for level in kept))
+        and not any(same_force(run.force, level) for level in question.without_levels)
+    )
 
 
 def confounding_of(test: MachineTest, systems: Systems) -> Confounding:
@@ -167,6 +212,13 @@ def confounding_of(test: MachineTest, systems: Systems) -> Confounding:
     observations = [run.observations for run in systems.runs]
     order = retaining_order(systems.sources, test.machine, observations, test.question.prefer)
     return confounding(merged(systems.runs), order, systems.ceilings)
+
+
+def what_reciprocity_buys(test: MachineTest) -> Reciprocity:
+    """What taking each joint as symmetric buys for a test's question."""
+    question = test.question
+    sources = select_sources(test.machine, question.parameters)
+    return reciprocity(sources, test.machine, test.observations(), question.reference_force, question.prefer)
 
 
 def effects_of(test: MachineTest, systems: Systems) -> tuple[Effect, ...]:

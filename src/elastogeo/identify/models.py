@@ -121,12 +121,13 @@ def _fit(
     level_errors = _left_out(runs, by_level)
     run_errors = _left_out(runs, np.eye(len(runs), dtype=bool))
     readings, rss = int(rows.sum()), float(left.sum())
-    bic = readings * np.log(rss / readings) + len(labels) * np.log(readings)
+    count = len(labels) + (exponent is not None)
+    bic = readings * np.log(rss / readings) + count * np.log(readings)
     p_value = None
     if constant is not None:
-        added = len(labels) - len(constant.labels)
+        added = count - len(constant.labels)
         gain = (constant.rmse**2 * readings - rss) / added
-        p_value = float(fdtrc(added, readings - len(labels), gain / (rss / (readings - len(labels)))))
+        p_value = float(fdtrc(added, readings - count, gain / (rss / (readings - count))))
     fit = ModelFit(
         name=name,
         labels=labels,
@@ -180,7 +181,7 @@ def _fitness(systems: Systems, level: float, mean_square: float) -> float:
 def _supported(fits: Sequence[ModelFit], errors: dict[str, Array]) -> str:
     """The simplest model that no richer one beats at left-out levels, by a gain that is sure (95 %) and worth having."""
     best = fits[0]
-    for fit in fits[1:]:
+    for fit in sorted(fits[1:], key=lambda fit: len(fit.labels)):
         gain = errors[best.name] - errors[fit.name]
         if best.left_out_level is None or fit.left_out_level is None or len(gain) < 3:
             continue

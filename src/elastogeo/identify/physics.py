@@ -166,6 +166,8 @@ def consistency_of(identification: Identification, draws: int = 0, seed: int = 0
     """
     test, budget = identification.test, identification.budget
     sources = select_sources(test.machine, test.question.parameters)
+    if test.question.reciprocal:
+        sources = reciprocal_sources(sources)
     solution = replace(identification.solution, covariance=budget.covariance, degrees_of_freedom=budget.degrees_of_freedom)
     metric = None
     if identification.by_run:

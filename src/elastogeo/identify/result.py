@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from elastogeo.estimate import Confounding, Repeatability, Solution
-from elastogeo.identify.budget import Budget
+from elastogeo.identify.budget import Agreement, Budget
 from elastogeo.identify.change import Change
 from elastogeo.identify.models import Comparison
 from elastogeo.identify.physics import Consistency
@@ -166,6 +166,8 @@ class Identification:
     patterns : tuple of Pattern
     rmse : float [mm]
         Over all readings.
+    agreement : Agreement or None
+        Of the first-order budget with random draws; None if the test states no systematic influence.
     models : Comparison or None
         Models of the compliance against the force; None with a reference level, fewer than three levels, or no compliance.
     consistency : Consistency or None
@@ -190,5 +192,6 @@ class Identification:
     patterns: tuple[Pattern, ...]
     rmse: float
     verdict: tuple[Check, ...]
+    agreement: Agreement | None = None
     models: Comparison | None = None
     consistency: Consistency | None = None

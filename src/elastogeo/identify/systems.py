@@ -33,13 +33,16 @@ class RunSystem:
     rows : array, shape (m, p + 1)
         `[A | y]`, less the reference's if one is taken off (Eq. 4.26).
     factor : Factor
-        Of the rows.
+        Of the rows, each with the root of its weight.
+    weights : array, shape (m,), or None
+        Of the readings, where outliers count less; None if all count one.
     """
 
     observations: Observations
     force: float
     rows: Array
     factor: Factor
+    weights: Array | None = None
 
     @property
     def name(self) -> str:

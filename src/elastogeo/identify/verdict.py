@@ -6,10 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from elastogeo.estimate import Confounding
 from elastogeo.identify.fit import Harmonic
+from elastogeo.machine import Array
 
 if TYPE_CHECKING:
+    from elastogeo.identify.budget import Agreement
     from elastogeo.identify.change import Change
     from elastogeo.identify.models import Comparison
     from elastogeo.identify.result import Parameter
@@ -114,6 +118,32 @@ def geometry_constant(change: Change, geometric: Sequence[str]) -> Check:
         False,
         f"{', '.join(moved)} seems to change with the force by more than the uncertainty (p = "
         f"{min(change.each[name] for name in moved):.2g}): the compliance model is too simple; compare models.",
+    )
+
+
+def first_order_enough(agreement: Agreement, labels: Sequence[str]) -> Check:
+    """Whether the intervals to first order are those of the random draws (JCGM 101, 8)."""
+    apart = [label for label, agrees in zip(labels, agreement.agrees, strict=True) if not agrees]
+    trials = f"{agreement.draws.trials} Monte Carlo trials"
+    if not apart:
+        return Check("first order enough", True, f"The intervals agree with {trials} within their numerical tolerance.")
+    return Check(
+        "first order enough",
+        False,
+        f"For {', '.join(apart)} the interval to first order differs from that of {trials} by more than one significant "
+        f"digit of the uncertainty: a distribution that is not normal decides there. Use the Monte Carlo interval.",
+    )
+
+
+def outliers(weights: Sequence[Array]) -> Check:
+    """How many readings the robust estimate counts less, and what it costs."""
+    every = np.concatenate(weights)
+    fewer = int(np.sum(every < 1.0))
+    return Check(
+        "outliers",
+        True,
+        f"Robust estimate: {fewer} of {len(every)} readings count less than one (normal noise alone would make it 18 %), "
+        f"the least {every.min():.2g}. Its price where nothing is wrong is 2.6 % greater standard uncertainties.",
     )
 
 

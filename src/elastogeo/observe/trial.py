@@ -8,7 +8,7 @@ from math import inf
 from typing import Protocol
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, Machine, OptionalForce, OptionalLength, OptionalPressure
+from elastogeo.machine import Array, Forces, Machine, OptionalForce, OptionalLength, OptionalPressure
 from elastogeo.observe.observations import Observations
 
 
@@ -66,11 +66,21 @@ class Question:
         Force level that is subtracted from all others (Eqs. 4.26, 4.27), if any.
     prefer : tuple of str
         Parameters to retain before others that cannot be told from them.
+    levels, without_levels : tuple of float [N]
+        Force levels to use alone, and to leave out; empty for all, and for none.
+    reciprocal : bool
+        Whether each joint's compliance is taken as symmetric: C_dfj and C_fdj are then one parameter.
+    robust : bool
+        Whether outlying readings count less (Huber).
     """
 
     parameters: tuple[str, ...] = ("planar-xy",)
     reference_force: OptionalForce = None
     prefer: tuple[str, ...] = ()
+    levels: Forces = ()
+    without_levels: Forces = ()
+    reciprocal: bool = False
+    robust: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -39,7 +39,17 @@ from __future__ import annotations
 from typing import Any
 
 from elastogeo.estimate import Confounding, Repeatability
-from elastogeo.identify import BudgetLine, Change, Comparison, Consistency, Identification, Level, Local, Parameter
+from elastogeo.identify import (
+    Agreement,
+    BudgetLine,
+    Change,
+    Comparison,
+    Consistency,
+    Identification,
+    Level,
+    Local,
+    Parameter,
+)
 from elastogeo.report.as_json.envelope import UM, document, in_um, tested, verdict_entries
 
 IDENTIFICATION_SCHEMA = "elastogeo.identification/1"
@@ -119,6 +129,17 @@ def _parameter(result: Identification, k: int, parameter: Parameter) -> dict[str
         "degrees_of_freedom": result.budget.degrees_of_freedom[k],
         "naive_standard_uncertainty": result.naive.standard_uncertainty[k],
         "budget": [_budget_line(line) for line in result.budget.lines[k]],
+        "monte_carlo": None if result.agreement is None else _draws(result.agreement, k),
+    }
+
+
+def _draws(agreement: Agreement, k: int) -> dict[str, Any]:
+    """What random draws say of one parameter, and whether the first order agrees."""
+    return {
+        "standard_uncertainty": agreement.draws.standard_uncertainty[k],
+        "interval95": agreement.draws.interval[k],
+        "trials": agreement.draws.trials,
+        "agrees": bool(agreement.agrees[k]),
     }
 
 
