@@ -38,7 +38,11 @@ TASKS = {
         [("demo", ["-m", "elastogeo", "demo"])],
     ),
     "test": ("run every test", DEVELOPER, [("test", PYTEST)]),
-    "bench": ("time the solver on many readings (minutes)", DEVELOPER, [("bench", ["benchmarks/run.py"])]),
+    "bench": (
+        "time the solver on many readings, and Monte Carlo trials (minutes)",
+        DEVELOPER,
+        [("bench", ["benchmarks/run.py"]), ("monte carlo", ["benchmarks/monte_carlo.py"])],
+    ),
     "check": ("lint, format, types (mypy --strict) and import layers", DEVELOPER, CHECKS),
     "docs": (
         "build the documentation into docs/_build/html",

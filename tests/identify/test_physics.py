@@ -12,14 +12,13 @@ from scipy.special import stdtr
 
 from elastogeo.errors import InputError
 from elastogeo.estimate import Confounding, Solution, confounding, solve
-from elastogeo.identify import identify, merged, run_systems, systems_of
+from elastogeo.identify import consistency_of, identify, merged, run_systems, systems_of
 from elastogeo.identify.physics import (
     CONSISTENT,
     CONTRADICTED,
     WITHIN_NOISE,
     ReciprocalSource,
     consistency,
-    consistency_of,
     joint_blocks,
     reciprocal_sources,
     reciprocity,

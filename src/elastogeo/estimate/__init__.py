@@ -6,6 +6,7 @@ from elastogeo.estimate.distributions import DISTRIBUTIONS, Influence, coverage_
 from elastogeo.estimate.factor import BLOCK_ROWS, Factor, empty_factor, factor_blocks, merge, select
 from elastogeo.estimate.propagation import (
     MonteCarlo,
+    draw_estimates,
     effective_degrees_of_freedom,
     first_order,
     monte_carlo,
@@ -33,6 +34,7 @@ __all__ = [
     "Solution",
     "confounding",
     "coverage_factor",
+    "draw_estimates",
     "effective_degrees_of_freedom",
     "empty_factor",
     "factor_blocks",

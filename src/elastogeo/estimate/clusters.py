@@ -19,6 +19,9 @@ from elastogeo.estimate.solution import Solution, solve
 _SINGULAR = 1e-10
 """Eigenvalues of `I - H` below this belong to combinations that one run alone determines."""
 
+_HANGING = 1e-4
+"""Share of the standard uncertainty of a parameter, counted by reading, from which on such a combination matters to it."""
+
 
 def solve_by_run(runs: Sequence[Factor], labels: Sequence[str]) -> Solution:
     """Least-squares solution whose covariance counts on independent runs, not on independent readings.
@@ -52,7 +55,10 @@ def solve_by_run(runs: Sequence[Factor], labels: Sequence[str]) -> Solution:
     # a[g] is the bread times the adjusted design of run g: its share of the estimate is a[g] @ residual[g].
     shares = [solve_triangular(whole, (lift @ root).T) for lift, root in zip(lifted, roots, strict=True)]
     scores = np.array([share @ residual for share, residual in zip(shares, residuals, strict=True)])
-    degrees = np.array([_degrees_of_freedom(roots, [share[k] for share in shares]) for k in range(len(norms))])
+    alone = np.any([_resting_on(root, whole) for root in roots], axis=0)
+    degrees = np.array(
+        [0.0 if alone[k] else _degrees_of_freedom(roots, [share[k] for share in shares]) for k in range(len(norms))]
+    )
     if (degrees <= 1).any():
         weak = ", ".join(label for label, degree in zip(labels, degrees, strict=True) if degree <= 1)
         raise DegreesOfFreedomError(
@@ -65,10 +71,23 @@ def solve_by_run(runs: Sequence[Factor], labels: Sequence[str]) -> Solution:
 
 def _lifted(root: Array) -> Array:
     """`(I - H)^(-1/2)` of one run in the space of its triangle; a combination that rests on it alone is left out."""
-    values, vectors = np.linalg.eigh(np.eye(len(root)) - root @ root.T)
-    free = values > _SINGULAR
+    values, vectors, free = _apart(root)
     inverse = np.where(free, 1.0 / np.sqrt(np.where(free, values, 1.0)), 0.0)
     return np.asarray((vectors * inverse) @ vectors.T)
+
+
+def _apart(root: Array) -> tuple[Array, Array, np.ndarray[tuple[int], np.dtype[np.bool_]]]:
+    """Eigenvalues and vectors of `I - H` of one run, and which of them other runs share in."""
+    values, vectors = np.linalg.eigh(np.eye(len(root)) - root @ root.T)
+    return values, vectors, values > _SINGULAR
+
+
+def _resting_on(root: Array, whole: Array) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Which parameters hang on combinations that one run alone determines: no other run shows how they scatter."""
+    _, vectors, free = _apart(root)
+    part = solve_triangular(whole, root.T @ vectors[:, ~free])
+    size = np.linalg.norm(solve_triangular(whole, np.eye(len(whole))), axis=1)
+    return np.asarray(np.linalg.norm(part, axis=1) > _HANGING * size)
 
 
 def _degrees_of_freedom(roots: Sequence[Array], shares: Sequence[Array]) -> float:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import ceil
+from math import ceil, isfinite
 
 import numpy as np
+from scipy.linalg import solve_triangular
 
 from elastogeo.errors import InputError, UnsupportedError
-from elastogeo.estimate.factor import Array
+from elastogeo.estimate.factor import Array, Factor
+from elastogeo.estimate.solution import solve
 
 BLOCK_TRIALS = 10_000
 """Least trials between two looks at the stability; high coverage needs more (JCGM 101, 7.9.4 b)."""
@@ -26,6 +28,39 @@ def first_order(sensitivities: Array, covariance: Array) -> Array:
         Of the inputs.
     """
     return np.asarray(sensitivities @ covariance @ sensitivities.T)
+
+
+def draw_estimates(factor: Factor, sigma: float, trials: int, random: np.random.Generator) -> Array:
+    """Estimates from repetitions of the same observations with other noise, shape (trials, p).
+
+    Each trial is what readings with independent Gaussian errors would give, all of them solved anew: through the triangle it
+    is `R p = z + sigma xi` with p standard normal numbers, whatever the number of readings.
+
+    Parameters
+    ----------
+    factor : Factor
+        Of p columns, all independent.
+    sigma : float
+        Standard deviation of one reading.
+    trials : int
+    random : numpy.random.Generator
+
+    Raises
+    ------
+    InputError
+        If sigma is no finite number of at least zero.
+    RankError
+        If the columns are dependent.
+    DegreesOfFreedomError
+        If there are no more readings than parameters.
+    """
+    if not (isfinite(sigma) and sigma >= 0):
+        raise InputError(f"the standard deviation of a reading is {sigma:g}, it must be finite and not negative")
+    values, norms = solve(factor).values, factor.column_norms
+    root = solve_triangular(factor.R / norms, sigma * np.eye(len(norms))) / norms[:, np.newaxis]
+    draws = random.standard_normal((trials, len(norms))) @ root.T
+    draws += values
+    return np.asarray(draws)
 
 
 def effective_degrees_of_freedom(contributions: Array, degrees_of_freedom: Array) -> Array:

@@ -2,6 +2,7 @@
 
 from elastogeo.identify.budget import Agreement, Budget, BudgetLine, agreement, uncertainty_budget
 from elastogeo.identify.change import SIGNIFICANT, Change, difference, local_change, run_dispersion
+from elastogeo.identify.check import Check
 from elastogeo.identify.circularity import Circularity, circularity
 from elastogeo.identify.comparison import BeforeAfter, Difference, compare_tests
 from elastogeo.identify.diagnosis import Diagnosis, Fault, diagnose
@@ -9,6 +10,7 @@ from elastogeo.identify.fit import Harmonic, fitness, rmse, strongest_harmonic
 from elastogeo.identify.identification import (
     adjacent,
     confounding_of,
+    consistency_of,
     effects_of,
     identify,
     local_estimates,
@@ -22,7 +24,7 @@ from elastogeo.identify.physics import Consistency, Reciprocity, consistency, re
 from elastogeo.identify.preference import moving_axes, retaining_order
 from elastogeo.identify.result import Identification, Level, Local, Parameter, Pattern, Trace
 from elastogeo.identify.systems import RunSystem, Systems, merged, noise_of, run_systems
-from elastogeo.identify.verdict import CONDITION_LIMIT, Check
+from elastogeo.identify.verdict import CONDITION_LIMIT
 from elastogeo.identify.what_if import WhatIf, what_if
 
 __all__ = [
@@ -60,6 +62,7 @@ __all__ = [
     "compare_tests",
     "confounding_of",
     "consistency",
+    "consistency_of",
     "diagnose",
     "difference",
     "effect",

@@ -10,8 +10,8 @@ import numpy as np
 from elastogeo.errors import UnsupportedError
 from elastogeo.estimate import Solution, coverage_factor
 from elastogeo.identify.change import SIGNIFICANT, Change, difference, difference_freedom
+from elastogeo.identify.check import Check
 from elastogeo.identify.result import Identification
-from elastogeo.identify.verdict import Check
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,16 +24,16 @@ from elastogeo.estimate import (
 )
 from elastogeo.identify.budget import Budget, agreement, uncertainty_budget
 from elastogeo.identify.change import Change, local_change, run_dispersion
+from elastogeo.identify.check import Check
 from elastogeo.identify.fit import fitness, rmse, strongest_harmonic
 from elastogeo.identify.influences import Effect, effects
 from elastogeo.identify.models import compare_models
-from elastogeo.identify.physics import Reciprocity, consistency_of, reciprocal_sources, reciprocity
+from elastogeo.identify.physics import Consistency, Reciprocity, consistency, reciprocal_sources, reciprocity
 from elastogeo.identify.preference import retaining_order
 from elastogeo.identify.result import Identification, Level, Local, Parameter, Pattern, Trace
 from elastogeo.identify.robust import downweighted
 from elastogeo.identify.systems import RunSystem, Systems, force_levels, merged, noise_of, run_systems, same_force
 from elastogeo.identify.verdict import (
-    Check,
     above_resolution,
     conditioned,
     first_order_enough,
@@ -139,10 +139,10 @@ def _assessed(result: Identification, systems: Systems) -> Identification:
 def _held_against_physics(result: Identification) -> tuple[Identification, Check]:
     """The result with what physics says of its compliances; a check that could not be made says so and counts as failed."""
     try:
-        consistency = consistency_of(result)
+        found = consistency_of(result)
     except (InputError, UnsupportedError) as error:
         return result, Check("physically consistent", False, f"This could not be judged: {error}.")
-    return replace(result, consistency=consistency), consistency.check
+    return replace(result, consistency=found), found.check
 
 
 def with_question(
@@ -212,6 +212,28 @@ def confounding_of(test: MachineTest, systems: Systems) -> Confounding:
     observations = [run.observations for run in systems.runs]
     order = retaining_order(systems.sources, test.machine, observations, test.question.prefer)
     return confounding(merged(systems.runs), order, systems.ceilings)
+
+
+def consistency_of(identification: Identification, draws: int = 0, seed: int = 0) -> Consistency:
+    """Whether what a test says agrees with the physics of joints, by its uncertainty with all influences.
+
+    An uncertainty by run gives no joint test, since the runs are about as few as the parameters: the signs decide then, and
+    the correlations that measure the distance are those of independent readings.
+
+    Parameters
+    ----------
+    identification : Identification
+    draws, seed : int
+        As in `consistency`.
+    """
+    test, budget = identification.test, identification.budget
+    sources = sources_of(test)
+    solution = replace(identification.solution, covariance=budget.covariance, degrees_of_freedom=budget.degrees_of_freedom)
+    metric = None
+    if identification.by_run:
+        scale = budget.standard_uncertainty / identification.naive.standard_uncertainty
+        metric = identification.naive.covariance * np.outer(scale, scale)
+    return consistency(sources, identification.confounding, solution, metric=metric, draws=draws, seed=seed)
 
 
 def what_reciprocity_buys(test: MachineTest) -> Reciprocity:

@@ -12,9 +12,8 @@ sum inherits what is left of it: a sum of on-axis terms is not negative, a sum o
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from math import sqrt
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import stdtr
@@ -31,16 +30,13 @@ from elastogeo.estimate.cone import (
     project,
     psd_cone,
 )
+from elastogeo.identify.check import Check
 from elastogeo.identify.preference import retaining_order
 from elastogeo.identify.systems import merged, run_systems
-from elastogeo.identify.verdict import Check
 from elastogeo.machine import Array, Machine, Site
 from elastogeo.observe import Observations
-from elastogeo.sources import Situation, Source, select_sources
+from elastogeo.sources import Situation, Source
 from elastogeo.sources.compliance import JointLoad
-
-if TYPE_CHECKING:
-    from elastogeo.identify.result import Identification
 
 CONSISTENT = "consistent"
 WITHIN_NOISE = "violated within noise"
@@ -150,30 +146,6 @@ class Reciprocity:
     alone_free: tuple[str, ...]
     alone_symmetric: tuple[str, ...]
     sentence: str
-
-
-def consistency_of(identification: Identification, draws: int = 0, seed: int = 0) -> Consistency:
-    """Whether what a test says agrees with the physics of joints, by its uncertainty with all influences.
-
-    An uncertainty by run gives no joint test, since the runs are about as few as the parameters: the signs decide then, and
-    the correlations that measure the distance are those of independent readings.
-
-    Parameters
-    ----------
-    identification : Identification
-    draws, seed : int
-        As in `consistency`.
-    """
-    test, budget = identification.test, identification.budget
-    sources = select_sources(test.machine, test.question.parameters)
-    if test.question.reciprocal:
-        sources = reciprocal_sources(sources)
-    solution = replace(identification.solution, covariance=budget.covariance, degrees_of_freedom=budget.degrees_of_freedom)
-    metric = None
-    if identification.by_run:
-        scale = budget.standard_uncertainty / identification.naive.standard_uncertainty
-        metric = identification.naive.covariance * np.outer(scale, scale)
-    return consistency(sources, identification.confounding, solution, metric=metric, draws=draws, seed=seed)
 
 
 def consistency(

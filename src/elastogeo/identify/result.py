@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from elastogeo.estimate import Confounding, Repeatability, Solution
 from elastogeo.identify.budget import Agreement, Budget
 from elastogeo.identify.change import Change
+from elastogeo.identify.check import Check
 from elastogeo.identify.models import Comparison
 from elastogeo.identify.physics import Consistency
-from elastogeo.identify.verdict import Check
 from elastogeo.machine import Array
 from elastogeo.observe import MachineTest
 

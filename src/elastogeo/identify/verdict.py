@@ -3,37 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from elastogeo.estimate import Confounding
+from elastogeo.identify.budget import Agreement
+from elastogeo.identify.change import SIGNIFICANT, Change
+from elastogeo.identify.check import Check
 from elastogeo.identify.fit import Harmonic
+from elastogeo.identify.models import Comparison
+from elastogeo.identify.result import Parameter
 from elastogeo.machine import Array
-
-if TYPE_CHECKING:
-    from elastogeo.identify.budget import Agreement
-    from elastogeo.identify.change import Change
-    from elastogeo.identify.models import Comparison
-    from elastogeo.identify.result import Parameter
-
-SIGNIFICANT = 0.05
 
 CONDITION_LIMIT = 30.0
 """Scaled condition number above which estimates are strongly coupled (Belsley, Kuh and Welsch, 1980)."""
 
 UM = 1000.0
-
-
-@dataclass(frozen=True, slots=True)
-class Check:
-    """One check of the verdict; if a decisive one fails, the data do not support what was asked."""
-
-    name: str
-    passed: bool
-    sentence: str
-    decisive: bool = False
 
 
 def identifiable(found: Confounding) -> Check:
