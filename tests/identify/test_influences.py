@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from elastogeo.errors import InputError, UnsupportedError
-from elastogeo.estimate import Solution, solve
+from elastogeo.estimate import Solution, solve, solve_by_run
 from elastogeo.identify import (
     Effect,
     agreement,
@@ -161,6 +161,21 @@ def test_signs_cancel_as_they_should(kind: str, test: MachineTest) -> None:
     expected = np.outer(move, move) * effect.influence.standard_uncertainty**2
     scale = np.sqrt(np.outer(np.diag(budget.covariance), np.diag(budget.covariance)))
     assert_allclose(added / scale, expected / scale, rtol=0, atol=1e-5)
+
+
+def test_draws_need_no_more_runs_than_the_uncertainty_by_run_does(make_test: MakeTest) -> None:
+    """Seven runs, thirteen parameters: a covariance by run of rank seven, drawn from all the same."""
+    forces = (36.0, 112.0, 238.0, 364.0, 490.0, 616.0, 742.0)
+    blank = make_test("wFYXt", forces, parameters=["elasto-geometric-xy"])
+    noisy = simulate(blank, {"C_XXX": 6e-5}, Imperfection(noise=1e-4, eccentricity=2e-4), exact=False)
+    systems = systems_of(noisy)
+    solution = solve_by_run([run.factor for run in systems.runs], confounding_of(noisy, systems).retained)
+    assert np.linalg.matrix_rank(solution.covariance / np.outer(*[solution.standard_uncertainty] * 2), tol=1e-9) == 7
+    effects = effects_of(replace(noisy, influences=(influence("bar-length"),)), systems)
+    found = agreement(systems, solution, effects, uncertainty_budget(systems, solution, effects))
+    half = np.ptp(found.draws.interval, axis=1) / 2
+    scatter = np.ptp(solution.interval(), axis=1) / 2
+    assert np.all(half > 0.95 * scatter)
 
 
 def certain(solution: Solution) -> Solution:

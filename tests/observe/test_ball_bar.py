@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from elastogeo.errors import InputError, PathError
-from elastogeo.machine import Machine
+from elastogeo.machine import Machine, parse_topology
 from elastogeo.observe import (
     PLANES,
     Calibration,
@@ -215,3 +215,19 @@ def test_an_unknown_instrument_is_refused() -> None:
     assert instrument_named("loaded-ball-bar") is LoadedBallBar
     with pytest.raises(InputError, match=r"there is no instrument 'ruler'; there are: .*loaded-ball-bar"):
         instrument_named("ruler")
+
+
+@pytest.mark.parametrize(
+    ("quantity", "factor", "message"),
+    [
+        ("angle", 180 / np.pi, r"the angles span 57\.\d turns; are they degrees given as radians\?"),
+        ("radial", 1000.0, r"a reading of 20 mm on a radius of 150 mm; look at the units of both"),
+    ],
+)
+def test_a_size_that_only_a_wrong_unit_gives_is_refused(quantity: str, factor: float, message: str) -> None:
+    angle = np.linspace(0, 2 * np.pi, 720, endpoint=False)
+    columns = {"angle": angle, "radial": np.full(720, 0.02)}
+    columns[quantity] = columns[quantity] * factor
+    machine = Machine("plane", parse_topology("wFYXt"))
+    with pytest.raises(InputError, match=message):
+        LoadedBallBar(Circle(150.0), 30.0).observe(machine, Run("r", columns, force=100.0))

@@ -53,6 +53,10 @@ def main() -> int:
         return _refused(error, 1)
     except ElastogeoError as error:
         return _refused(error, 2)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        return _refused(f"{error.filename or 'output'}: {error.strerror}; choose another place, or free some room", 2)
     except KeyboardInterrupt:
         return _refused("stopped by the user; nothing was left half written", 130)
     return 0

@@ -23,6 +23,9 @@ MAX_BYTES = 10_000_000
 
 T = TypeVar("T")
 
+_WRONG = object()
+"""Stands for a value that was refused already."""
+
 
 def read_document(path: Path) -> dict[str, Any]:
     """The tables of a TOML file.
@@ -75,23 +78,30 @@ def build(kind: type[T], table: Mapping[str, Any], where: str) -> T:
 
 
 def _built(kind: Any, table: Any, path: str, problems: list[str]) -> Any:
-    """The dataclass, or None with what is wrong added to `problems`."""
+    """The dataclass, or `_WRONG` with what is wrong added to `problems`."""
     before = len(problems)
     values = _internal(kind, table, path, problems)
     hints = get_type_hints(kind)
     for field in fields(kind):
-        if field.name in values:
+        if field.name in values and not _is_wrong(values[field.name]):
             problems.extend(_type_problems(hints[field.name], values[field.name], f"{path}{field.name}"))
-        elif field.init and field.default is MISSING and field.default_factory is MISSING:
+        elif field.name not in values and field.default is MISSING and field.default_factory is MISSING:
             unit = _unit_of(get_type_hints(kind, include_extras=True)[field.name])
             problems.append(f"{path}{_spelled(field.name, unit)} is missing")
     if len(problems) > before:
-        return None
+        return _WRONG
     try:
         return kind(**values)
     except InputError as error:
-        problems.append(f"{path}{error}")
-        return None
+        problems.append(": ".join(filter(None, [path.rstrip("., "), str(error)])))
+        return _WRONG
+
+
+def _is_wrong(value: Any) -> bool:
+    """Whether a value, or one inside it, was refused already."""
+    if isinstance(value, Mapping):
+        return any(map(_is_wrong, value.values()))
+    return value is _WRONG or (isinstance(value, tuple) and any(map(_is_wrong, value)))
 
 
 def _type_problems(hint: Any, value: Any, at: str) -> list[str]:
@@ -160,10 +170,10 @@ def _converted(value: Any, unit: str, inside: str, at: str, name: str, problems:
     if not inside or not unit or not _same_dimension(unit, inside):
         arrived = f"has the unit {unit!r}" if unit else "has no unit"
         problems.append(f"{at} {arrived}; write for example {_spelled(name, inside)}")
-        return value
+        return _WRONG
     if not _numeric(value):
         problems.append(f"{at} must be numbers, got {value!r:.60}")
-        return value
+        return _WRONG
     return _scaled(value, unit)
 
 

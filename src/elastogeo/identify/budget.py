@@ -209,8 +209,10 @@ def _sampler(systems: Systems, solution: Solution, effects: Sequence[Effect]) ->
     gram = np.einsum("gr,rpq->gpq", together, runs.gram)
     moment = together @ runs.moment
     shifted = np.array([together @ _shifted(systems, solution, effect, runs.norms) for effect in effects])
-    root = np.linalg.cholesky(solution.covariance * np.outer(runs.norms, runs.norms))
-    deviation = np.linalg.norm(root, axis=1)
+    deviation = solution.standard_uncertainty * runs.norms
+    # By run the covariance has no higher rank than there are runs: no Cholesky factor, but a root all the same.
+    sizes, vectors = np.linalg.eigh(solution.covariance * np.outer(runs.norms, runs.norms) / np.outer(deviation, deviation))
+    root = vectors * np.sqrt(np.maximum(sizes, 0.0))
 
     def draw(random: np.random.Generator, count: int) -> Array:
         sizes = np.column_stack([np.zeros((count, 0)), *(effect.influence.draws(random, count) for effect in effects)])
@@ -218,7 +220,7 @@ def _sampler(systems: Systems, solution: Solution, effects: Sequence[Effect]) ->
         moved = moment - np.einsum("ck,kgp->cgp", sizes, shifted)
         information = np.einsum("cgp,gpq,cgq->cpq", factors, gram, factors, optimize=True)
         values = np.linalg.solve(information, np.sum(factors * moved, axis=1)[..., np.newaxis])[..., 0]
-        normal = random.standard_normal((count, len(root))) @ root.T / deviation
+        normal = random.standard_normal((count, len(root))) @ root.T
         scatter = stdtrit(solution.degrees_of_freedom, ndtr(normal)) * deviation
         return np.asarray((values + scatter) / runs.norms)
 

@@ -14,6 +14,12 @@ from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, check_observations
 from elastogeo.observe.trial import Run
 
+MOST_TURNS = 10.0
+"""Turns that a run may have."""
+
+MOST_DEVIATION = 0.1
+"""Share of the radius that a reading may deviate."""
+
 
 @instrument("loaded-ball-bar")
 @dataclass(frozen=True, slots=True)
@@ -79,7 +85,9 @@ class LoadedBallBar:
             workpiece=commands.ball,
             length=self.circle.radius,
         )
-        return check_observations(observations)
+        check_observations(observations)
+        _check_units(run, self.circle.radius)
+        return observations
 
     def force(self, run: Run) -> float:
         """Force [N] with which the bar pushed in a run.
@@ -123,3 +131,22 @@ class LoadedBallBar:
         if not readings:
             raise InputError(f"run {run.name!r} has no reading")
         return np.asarray(run.columns["angle"])
+
+
+def _check_units(run: Run, radius: float) -> None:
+    """Refuse angles and deviations of a size that only a wrong unit gives.
+
+    Raises
+    ------
+    InputError
+        If the angles span more than `MOST_TURNS`, or a deviation is more than `MOST_DEVIATION` of the radius.
+    """
+    turns = float(np.ptp(run.columns["angle"])) / (2 * np.pi)
+    if turns > MOST_TURNS:
+        raise InputError(f"run {run.name!r}: the angles span {turns:.3g} turns; are they degrees given as radians?")
+    most = float(np.abs(run.columns["radial"]).max())
+    if most > MOST_DEVIATION * radius:
+        raise InputError(
+            f"run {run.name!r}: a reading of {most:.3g} mm on a radius of {radius:g} mm; look at the units of both: "
+            f"are they micrometres given as millimetres, or radii instead of deviations?"
+        )
