@@ -283,8 +283,21 @@ def test_influences_with_a_reference_level_are_refused(make_test: MakeTest) -> N
     noisy = simulate(blank, {"C_XXX": 6e-5}, Imperfection(noise=1e-4), exact=False)
     with pytest.raises(UnsupportedError, match=r"without a reference level; leave reference_force out"):
         identify(replace(noisy, influences=(influence("bar-length"),)))
-    asked = with_question(noisy, reference_force=float("nan"))
-    assert identify(replace(asked, influences=(influence("bar-length"),))).budget.lines
+    asked = replace(with_question(noisy, reference_force=float("nan")), influences=(influence("bar-length"),))
+    assert identify(asked).budget.lines
+
+
+def test_a_scatter_of_two_degrees_of_freedom_is_not_drawn_from(make_test: MakeTest) -> None:
+    """Four runs, six compliances: an uncertainty by run, but no draws that would settle."""
+    noisy = simulate(make_test("wFYXt", FORCES), {"C_XXX": 6e-5}, Imperfection(noise=1e-4), exact=False)
+    stated = replace(noisy, influences=(influence("bar-length"),))
+    result = identify(stated)
+    assert result.by_run
+    assert result.solution.degrees_of_freedom.min() < 2
+    assert result.agreement is None
+    systems = systems_of(stated)
+    with pytest.raises(UnsupportedError, match="after 300000 Monte Carlo trials the results are not stable"):
+        agreement(systems, result.solution, effects_of(stated, systems), result.budget)
 
 
 def test_an_unknown_influence_is_refused(test: MachineTest) -> None:

@@ -21,8 +21,8 @@ MakeTest = Callable[..., MachineTest]
 TRUTH = {"C_XXX": 6e-5, "C_YYY": 5e-5, "E_XX1": -1e-4, "E_Xt0": 0.004}
 
 
-def noisy(make_test: MakeTest, *, seed: int = 1) -> MachineTest:
-    test = make_test("wFYXt", [36.0, 364.0, 742.0], repeats=2, parameters=list(TRUTH))
+def noisy(make_test: MakeTest, *, repeats: int = 2, seed: int = 1) -> MachineTest:
+    test = make_test("wFYXt", [36.0, 364.0, 742.0], repeats=repeats, parameters=list(TRUTH))
     return simulate(test, TRUTH, Imperfection(noise=1e-4), seed=seed, exact=False)
 
 
@@ -94,7 +94,7 @@ def test_random_draws_stand_beside_the_first_order(make_test: MakeTest) -> None:
         KnownInfluence("force-scale", "gauge", relative=0.01),
         KnownInfluence("bar-length", "bar", length=0.001),
     )
-    result = identify(replace(noisy(make_test), influences=known))
+    result = identify(replace(noisy(make_test, repeats=4), influences=known))
     assert result.agreement is not None
     check = next(check for check in result.verdict if check.name == "first order enough")
     assert "Monte Carlo trials" in check.sentence
@@ -102,3 +102,6 @@ def test_random_draws_stand_beside_the_first_order(make_test: MakeTest) -> None:
     drawn = result.agreement.draws
     assert_allclose(drawn.standard_uncertainty[k], result.budget.standard_uncertainty[k], rtol=0.1)
     assert identify(noisy(make_test)).agreement is None
+    few = identify(replace(noisy(make_test, repeats=1), influences=known))
+    check = next(check for check in few.verdict if check.name == "first order enough")
+    assert (few.agreement is None) is not check.passed or few.agreement is not None

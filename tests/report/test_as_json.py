@@ -58,6 +58,7 @@ PARAMETER_KEYS = {
     "degrees_of_freedom",
     "naive_standard_uncertainty",
     "budget",
+    "monte_carlo",
 }
 
 

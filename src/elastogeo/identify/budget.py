@@ -31,6 +31,9 @@ from elastogeo.machine import Array
 
 SCATTER = "scatter of the readings"
 
+MOST_TRIALS = 300_000
+"""After which draws that have not settled will not."""
+
 
 @dataclass(frozen=True, slots=True)
 class BudgetLine:
@@ -137,11 +140,12 @@ def agreement(systems: Systems, solution: Solution, effects: Sequence[Effect], b
     Raises
     ------
     UnsupportedError
-        If there is no influence to draw, or the draws do not settle.
+        If there is no influence to draw, or the draws do not settle: a scatter with two degrees of freedom or fewer has no
+        standard deviation, and if it rules, its draws never do.
     """
     if not effects:
         raise UnsupportedError("the test states no systematic influence; add [[influences]] to its file to draw from them")
-    draws = monte_carlo(_sampler(systems, solution, effects), digits=1, seed=seed)
+    draws = monte_carlo(_sampler(systems, solution, effects), digits=1, seed=seed, most=MOST_TRIALS)
     apart = np.abs(budget.interval - draws.interval)
     return Agreement(draws, np.asarray((apart <= draws.tolerance[:, np.newaxis]).all(axis=1)))
 
@@ -211,8 +215,9 @@ def _sampler(systems: Systems, solution: Solution, effects: Sequence[Effect]) ->
     shifted = np.array([together @ _shifted(systems, solution, effect, runs.norms) for effect in effects])
     deviation = solution.standard_uncertainty * runs.norms
     # By run the covariance has no higher rank than there are runs: no Cholesky factor, but a root all the same.
-    sizes, vectors = np.linalg.eigh(solution.covariance * np.outer(runs.norms, runs.norms) / np.outer(deviation, deviation))
-    root = vectors * np.sqrt(np.maximum(sizes, 0.0))
+    correlation = solution.covariance / np.outer(solution.standard_uncertainty, solution.standard_uncertainty)
+    spreads, vectors = np.linalg.eigh(correlation)
+    root = vectors * np.sqrt(np.maximum(spreads, 0.0))
 
     def draw(random: np.random.Generator, count: int) -> Array:
         sizes = np.column_stack([np.zeros((count, 0)), *(effect.influence.draws(random, count) for effect in effects)])

@@ -111,9 +111,7 @@ def _assessed(result: Identification, systems: Systems) -> Identification:
     elastic = any(p.elastic for p in parameters) and all(p.separated for p in parameters)
     if elastic and not systems.references and len(systems.levels) >= LEVELS_FOR_MODELS:
         result = replace(result, models=compare_models(result.test.machine, systems, result.confounding.retained))
-    effects_known = effects_of(result.test, systems)
-    if effects_known:
-        result = replace(result, agreement=agreement(systems, result.solution, effects_known, result.budget))
+    result, drawn = _held_against_draws(result, systems)
     physics = None
     if elastic:
         result, physics = _held_against_physics(result)
@@ -126,7 +124,7 @@ def _assessed(result: Identification, systems: Systems) -> Identification:
         conditioned(result.confounding),
         residuals_unstructured(harmonics, result.rmse, result.by_run),
         uncertainty_by_run(result.by_run, len(systems.runs), bool(systems.references)),
-        first_order_enough(result.agreement, result.solution.labels) if result.agreement else None,
+        drawn,
         outliers([run.weights for run in systems.runs if run.weights is not None]) if result.test.question.robust else None,
         above_resolution({p.name: abs(p.peak_to_peak) for p in parameters}, result.test.resolution),
         geometry_constant(result.local_change, geometric) if result.local_change and geometric else None,
@@ -134,6 +132,18 @@ def _assessed(result: Identification, systems: Systems) -> Identification:
         physics,
     )
     return replace(result, verdict=tuple(check for check in verdict if check is not None))
+
+
+def _held_against_draws(result: Identification, systems: Systems) -> tuple[Identification, Check | None]:
+    """The result with the random draws of its influences, if it has any; a check that could not be made says so."""
+    known = effects_of(result.test, systems)
+    if not known:
+        return result, None
+    try:
+        drawn = agreement(systems, result.solution, known, result.budget)
+    except UnsupportedError as error:
+        return result, Check("first order enough", False, f"This could not be judged: {error}.")
+    return replace(result, agreement=drawn), first_order_enough(drawn, result.solution.labels)
 
 
 def _held_against_physics(result: Identification) -> tuple[Identification, Check]:
