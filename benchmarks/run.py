@@ -44,10 +44,11 @@ def main() -> int:
     parser.add_argument("readings", nargs="*", type=int, default=[10**6, 10**7], help="default: 1000000 10000000")
     counts: list[int] = parser.parse_args().readings
 
+    busy = f"load {os.getloadavg()[0]:.1f} before the start; " if hasattr(os, "getloadavg") else ""
     first = case("stages-2-axes", counts[0])
     five = case("stages-5-axes", counts[0])
     versions = ", ".join(f"{name} {version}" for name, version in first["versions"].items())
-    print(f"{processor()}, {os.cpu_count()} cores; {versions}; 13 parameters, best of 3\n")
+    print(f"{processor()}, {os.cpu_count()} cores; {versions}; {busy}13 parameters, best of 3\n")
     print(HEADER, flush=True)
     base = math.nan
     for count in counts:

@@ -164,13 +164,13 @@ def test_signs_cancel_as_they_should(kind: str, test: MachineTest) -> None:
 
 
 def test_draws_need_no_more_runs_than_the_uncertainty_by_run_does(make_test: MakeTest) -> None:
-    """Seven runs, thirteen parameters: a covariance by run of rank seven, drawn from all the same."""
-    forces = (36.0, 112.0, 238.0, 364.0, 490.0, 616.0, 742.0)
+    """Eleven runs, thirteen parameters: a covariance by run of rank eleven, drawn from all the same."""
+    forces = tuple(36.0 + 70.6 * k for k in range(11))
     blank = make_test("wFYXt", forces, parameters=["elasto-geometric-xy"])
     noisy = simulate(blank, {"C_XXX": 6e-5}, Imperfection(noise=1e-4, eccentricity=2e-4), exact=False)
     systems = systems_of(noisy)
     solution = solve_by_run([run.factor for run in systems.runs], confounding_of(noisy, systems).retained)
-    assert np.linalg.matrix_rank(solution.covariance / np.outer(*[solution.standard_uncertainty] * 2), tol=1e-9) == 7
+    assert np.linalg.matrix_rank(solution.covariance / np.outer(*[solution.standard_uncertainty] * 2), tol=1e-9) == 11
     effects = effects_of(replace(noisy, influences=(influence("bar-length"),)), systems)
     found = agreement(systems, solution, effects, uncertainty_budget(systems, solution, effects))
     half = np.ptp(found.draws.interval, axis=1) / 2
