@@ -234,3 +234,14 @@ def test_a_motion_may_be_any_path(make_machine: Callable[..., Machine]) -> None:
     ball = np.linalg.solve(start[0], start[1] @ point)
     assert_allclose((stop[1] @ point - stop[0] @ ball)[:3], line[-1], atol=1e-9)
     assert_allclose(np.diff(commands.position, axis=0) / 5.0, commands.velocity[:-1], atol=1e-9)
+
+
+def test_accelerations_of_a_path_fixed_to_a_turned_workpiece_are_those_of_its_commands() -> None:
+    """The table stands at an odd angle: the acceleration turns with the path, as the position and the velocity do."""
+    machine = Machine("table", parse_topology("wCFXYZt"))
+    time = np.linspace(0.0, 1.0, 2001)
+    motion = Circle(150.0, in_workpiece=True).motion(2.0 * time, 2.0)
+    commands = follow(machine, {"C": 0.7}, motion)
+    assert commands.acceleration is not None
+    numerical = np.gradient(commands.velocity, time, axis=0, edge_order=2)
+    assert_allclose(commands.acceleration[2:-2], numerical[2:-2], atol=1e-3)

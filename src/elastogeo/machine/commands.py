@@ -125,7 +125,8 @@ def follow(machine: Machine, centre: Mapping[str, float], motion: Motion, tool: 
     acceleration = None
     if not motion.rotary:
         acceleration = np.zeros_like(position)
-        _put(acceleration, machine, linear, _applied(inverse, motion.acceleration))
+        turned = frames.workpiece.vector(motion.acceleration) if motion.in_workpiece else motion.acceleration
+        _put(acceleration, machine, linear, _applied(inverse, turned))
     return Commands(position, velocity, acceleration, target, ball)
 
 

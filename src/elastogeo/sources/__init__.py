@@ -2,7 +2,14 @@
 
 from elastogeo.sources.catalogue import PRESETS, catalogue, select_sources
 from elastogeo.sources.families import families, family
-from elastogeo.sources.response import column_ceilings, design_rows, exact_response, linear_response, site_twists
+from elastogeo.sources.response import (
+    column_ceilings,
+    design_blocks,
+    design_rows,
+    exact_response,
+    linear_response,
+    site_twists,
+)
 from elastogeo.sources.simulate import parameter_values, simulate
 from elastogeo.sources.situation import Situation
 from elastogeo.sources.source import Driver, Source, twist_unit
@@ -14,6 +21,7 @@ __all__ = [
     "Source",
     "catalogue",
     "column_ceilings",
+    "design_blocks",
     "design_rows",
     "exact_response",
     "families",
