@@ -56,7 +56,7 @@ def test_what_will_not_do_is_said_with_what_to_write(table, message):
 
 
 def test_all_that_is_wrong_is_said_at_once():
-    with pytest.raises(FormatError) as caught:
+    with pytest.raises(FormatError, match="feed has no unit") as caught:
         build(LoadedBallBar, {"feed": 3, "circle": {"radius_deg": 1}, "tol_mm": [0, 0, 0]}, "my.toml, setup")
     text = str(caught.value)
     assert text.startswith("my.toml, setup:")

@@ -295,6 +295,9 @@ def test_a_scatter_of_two_degrees_of_freedom_is_not_drawn_from(make_test: MakeTe
     assert result.by_run
     assert result.solution.degrees_of_freedom.min() < 2
     assert result.agreement is None
+    check = next(check for check in result.verdict if check.name == "first order enough")
+    assert not check.passed
+    assert check.sentence.startswith("This could not be judged: after 300000 Monte Carlo trials")
     systems = systems_of(stated)
     with pytest.raises(UnsupportedError, match="after 300000 Monte Carlo trials the results are not stable"):
         agreement(systems, result.solution, effects_of(stated, systems), result.budget)
