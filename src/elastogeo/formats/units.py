@@ -1,6 +1,7 @@
 """Units at the boundary: one table of spellings, each with its dimension and its factor to the internal unit.
 
-Inside, all is mm, rad, N, N mm, s, mm/s; pressure stays in bar, current in A, voltage in V, temperature in degC.
+Inside, all is mm, rad, N, N mm, s, mm/s and what follows from them (inertia in N mm s^2, mass in N s^2/mm); pressure is
+in bar, current in A, voltage in V, temperature in degC.
 A factor is a ratio of two exact numbers, so that 35 um becomes the double nearest to 0.035 mm. Nothing is rounded.
 """
 
@@ -39,6 +40,8 @@ class Unit:
 
 _MICROMETRE, _DEGREE, _CELSIUS = Unit("length", 1, 1e3), Unit("angle", pi, 180), Unit("temperature")
 _MM_S, _MM_MIN, _M_MIN = Unit("feed"), Unit("feed", 1, 60), Unit("feed", 1e3, 60)
+_MM_S2, _M_S2 = Unit("acceleration"), Unit("acceleration", 1e3)
+_RAD_S, _RPM = Unit("angular rate"), Unit("angular rate", pi, 30)
 
 #: Every spelling of a unit that is understood. Upper and lower case differ: `nm` is a length, `Nm` a moment.
 UNITS: Mapping[str, Unit] = MappingProxyType(
@@ -78,7 +81,29 @@ UNITS: Mapping[str, Unit] = MappingProxyType(
         "mm/min": _MM_MIN,
         "m_min": _M_MIN,
         "m/min": _M_MIN,
+        "m_s": Unit("feed", 1e3),
+        "m/s": Unit("feed", 1e3),
+        "mm_s2": _MM_S2,
+        "mm/s2": _MM_S2,
+        "mm/s^2": _MM_S2,
+        "m_s2": _M_S2,
+        "m/s2": _M_S2,
+        "m/s^2": _M_S2,
+        "rad_s": _RAD_S,
+        "rad/s": _RAD_S,
+        "deg_s": Unit("angular rate", pi, 180),
+        "deg/s": Unit("angular rate", pi, 180),
+        "rpm": _RPM,
+        "1/min": _RPM,
+        "Hz": Unit("frequency"),
+        "kg": Unit("mass", 1, 1e3),
+        "kg_m2": Unit("inertia", 1e3),
+        "kg_cm2": Unit("inertia", 1, 10),
+        "N_mm_s2": Unit("inertia"),
+        "N_m_s": Unit("damping", 1e3),
+        "N_mm_s": Unit("damping"),
         "A": Unit("current"),
+        "mA": Unit("current", 1, 1e3),
         "V": Unit("voltage"),
         "C": _CELSIUS,
         "degC": _CELSIUS,
@@ -87,12 +112,15 @@ UNITS: Mapping[str, Unit] = MappingProxyType(
 )
 
 _POSITION = ("length", "angle")
+_VELOCITY = ("feed", "angular rate")
 #: The dimensions that a quantity of this name may have; a name that is not here may have any unit, or none.
 QUANTITIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         **dict.fromkeys(("radial", "radius", "length", "displacement", "x", "y", "z"), ("length",)),
         **dict.fromkeys(("position", "reading", "deviation", "error"), _POSITION),
         **dict.fromkeys(("angle", "a", "b", "c"), ("angle",)),
+        "velocity": _VELOCITY,
+        "acceleration": ("acceleration",),
         **dict.fromkeys(("moment", "torque"), ("moment",)),
         **{name: (name,) for name in ("force", "pressure", "time", "feed", "current", "voltage", "temperature")},
     }

@@ -1,0 +1,1 @@
+"""Feed drives: motor current -> torque -> force at the joint -> at the tool. Stands on `machine`, `estimate`, `errors`."""

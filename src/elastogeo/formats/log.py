@@ -1,0 +1,79 @@
+"""A log as a control or a data logger recorded it: channels, each with a clock of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from elastogeo.errors import FormatError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """One recorded signal, as it stands in the file: nothing is converted, dropped or filled.
+
+    Attributes
+    ----------
+    name : str
+        As the file spells it: `CURRENT|1`, `X1_CurrentFeedback`.
+    unit : str
+        As the file says it, in a spelling of `elastogeo.formats.units`; empty if the file gives none.
+    values : array, shape (m,)
+        In that unit; NaN where the file has a sample but no number.
+    time : array, shape (m,) [s], or None
+        Strictly increasing, from any zero that the channels of the file share; None if the file keeps no clock, and
+        the samples only follow one another.
+    """
+
+    name: str
+    unit: str
+    values: Array
+    time: Array | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse a channel whose clock does not go forward."""
+        if self.values.ndim != 1 or not len(self.values):
+            raise FormatError(f"channel {self.name!r} has no sample; record it again or leave it out")
+        if self.time is None:
+            return
+        if len(self.time) != len(self.values):
+            raise FormatError(f"channel {self.name!r} has {len(self.values)} samples at {len(self.time)} times")
+        steps = np.diff(self.time)
+        if not np.isfinite(self.time).all() or (steps <= 0).any():
+            row = int(np.argmax(~(steps > 0))) + 2
+            raise FormatError(
+                f"channel {self.name!r}: the time of sample {row} is not after the one before it; a log must be in the "
+                f"order of its clock"
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class Log:
+    """A recording.
+
+    Attributes
+    ----------
+    channels : mapping of str to Channel
+        By name, in the order of the file.
+    metadata : mapping of str to str
+        What the file says besides.
+    source : str
+        Where it came from, for messages.
+    notes : tuple of str
+        Sentences on what was repaired or left out in reading: an order put right, doubled samples, channels of text.
+    """
+
+    channels: Mapping[str, Channel]
+    metadata: Mapping[str, str]
+    source: str
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Refuse a log without a channel."""
+        if not self.channels:
+            raise FormatError(f"{self.source}: holds no channel of numbers; export it again with its signals")

@@ -1,0 +1,143 @@
+'''Log files: any recording of a control or data logger -> a `Log`. The format is told from the content, never from the name.
+
+To add a format, write one file in this package whose name begins with `log_`. It is found and registered by itself, and
+the contract tests in `tests/formats/test_log_files.py` run on it at once. A complete one, `log_toy.py`::
+
+    """The toy format: the word TOYLOG, then one current in amperes on each line, a millisecond apart."""
+
+    import numpy as np
+
+    from elastogeo.errors import FormatError
+    from elastogeo.formats.log import Channel, Log
+    from elastogeo.formats.log_files import LogFormat, register
+
+
+    def can_read(head: bytes) -> bool:
+        return head.startswith(b"TOYLOG\\n")
+
+
+    def read(data: bytes, source: str) -> Log:
+        currents = []
+        for number, line in enumerate(data.splitlines()[1:], 2):
+            try:
+                currents.append(float(line))
+            except ValueError:
+                raise FormatError(f"{source}, line {number}: {line[:40]!r} is not a current; correct it") from None
+        time = np.arange(len(currents)) / 1000
+        return Log({"current": Channel("current", "A", np.array(currents), time)}, {}, source)
+
+
+    register(LogFormat("toy", ".toy", can_read, read, sample=lambda: b"TOYLOG\\n0.5\\n0.25\\n"))
+
+What the contract asks is what `run_files` asks of a format of runs: `can_read` never raises and says yes to its own files
+only; `read` turns any bytes into a `Log`, or raises a `FormatError` that says where, what arrived, why it will not do, and
+what to do. What it repairs, it says in the log's notes; it never drops, pads or rounds a sample in silence.
+'''
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import elastogeo.formats
+from elastogeo.errors import FormatError
+from elastogeo.formats.log import Log
+from elastogeo.formats.run_files import HEAD, MAX_BYTES
+
+
+@dataclass(frozen=True, slots=True)
+class LogFormat:
+    """The contract of a format of logs; the module's docstring is the recipe.
+
+    Attributes
+    ----------
+    name : str
+        What people call it, for messages.
+    suffix : str
+        The usual end of its file names, with the dot; never used to recognise one.
+    can_read : callable
+        `can_read(head)`: whether a file that begins with these bytes is of this format.
+    read : callable
+        `read(data, source)`: the whole file's bytes to a `Log`; `source` is for messages.
+    sample : callable
+        `sample()`: the bytes of a small valid file.
+    """
+
+    name: str
+    suffix: str
+    can_read: Callable[[bytes], bool]
+    read: Callable[[bytes, str], Log]
+    sample: Callable[[], bytes]
+
+
+_FORMATS: dict[str, LogFormat] = {}
+
+
+def register(log_format: LogFormat) -> None:
+    """Add a format to those that `read_log` knows.
+
+    Raises
+    ------
+    FormatError
+        If another format has the same name.
+    """
+    if log_format.name in _FORMATS:
+        raise FormatError(f"a log format named {log_format.name!r} is registered already; give yours another name")
+    _FORMATS[log_format.name] = log_format
+
+
+def log_formats() -> dict[str, LogFormat]:
+    """All known formats by name: those of every module of this package whose name begins with `log_`."""
+    for module in pkgutil.iter_modules(elastogeo.formats.__path__):
+        if module.name.startswith("log_") and module.name != "log_files":
+            importlib.import_module(f"elastogeo.formats.{module.name}")
+    return dict(_FORMATS)
+
+
+def read_log(path: str | Path) -> Log:
+    """Read one log of any known format, told from its content.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file, of at most `MAX_BYTES` bytes.
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be opened, is too large, is of no known format or of more than one, or has bad content.
+    """
+    source = str(path)
+    try:
+        with open(path, "rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise FormatError(f"{source}: cannot be opened ({reason}); check the path and its permissions") from None
+    return read_log_bytes(data, source)
+
+
+def read_log_bytes(data: bytes, source: str) -> Log:
+    """Read the bytes of a log, as `read_log` does.
+
+    Raises
+    ------
+    FormatError
+        As `read_log`.
+    """
+    if len(data) > MAX_BYTES:
+        raise FormatError(f"{source}: is larger than {MAX_BYTES // 1_000_000} MB; split the recording into several files")
+    if not data:
+        raise FormatError(f"{source}: the file is empty; copy or export it again")
+    formats = log_formats()
+    found = [f for f in formats.values() if f.can_read(data[:HEAD])]
+    if len(found) == 1:
+        return found[0].read(data, source)
+    known = ", ".join(f"{f.name} ({f.suffix})" for f in formats.values())
+    if found:
+        claims = " and ".join(f.name for f in found)
+        raise FormatError(f"{source}: could be {claims}, so it is not read; export it in one of the formats {known}")
+    raise FormatError(f"{source}: begins with {data[:20]!r}, which no known log format does; known are {known}")
