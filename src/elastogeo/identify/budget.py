@@ -5,6 +5,10 @@ amount w_r, each of its columns is off by h w_r, with h the column's power of th
 
     (sum_r A_r^T A_r)^-1 sum_r w_r [ H A_r^T (y_r - A_r p) - A_r^T A_r H p ].
 
+If single loads are off, so that the design changes by D_r, it is off by
+
+    (sum_r A_r^T A_r)^-1 sum_r [ D_r^T (y_r - A_r p) - A_r^T D_r p ].
+
 And by random draws (JCGM 101) through the triangles of the runs, where nothing is linearised.
 """
 
@@ -174,6 +178,33 @@ class _Moments:
     powers: Array
 
 
+@dataclass(frozen=True, slots=True)
+class _Loads:
+    """What q of all k effects, those on single loads, change in the normal equations of p parameters.
+
+    With the sizes s of all effects and D_i the change of the design, the information gains `sum s_i (D_i^T A + A^T D_i) +
+    sum s_i s_j D_i^T D_j`, the moment `sum s_i (D_i^T y - sum s_l D_i^T shift_l)`.
+    """
+
+    which: np.ndarray[tuple[int], np.dtype[np.int_]]
+    cross: Array
+    square: Array
+    moment: Array
+    shifted: Array
+
+    def information(self, sizes: Array) -> Array:
+        """What draws of the sizes, shape (c, k), add to the information, shape (c, p, p)."""
+        own = sizes[:, self.which]
+        return np.asarray(
+            np.einsum("ci,ipq->cpq", own, self.cross) + np.einsum("ci,cj,ijpq->cpq", own, own, self.square, optimize=True)
+        )
+
+    def moved(self, sizes: Array) -> Array:
+        """What they add to the moment, shape (c, p)."""
+        own = sizes[:, self.which]
+        return np.asarray(own @ self.moment - np.einsum("ci,cl,ilp->cp", own, sizes, self.shifted, optimize=True))
+
+
 def _moments(systems: Systems, solution: Solution) -> _Moments:
     runs = [select(run.factor, solution.labels) for run in systems.runs]
     norms = np.sqrt(sum(np.sum(run.R**2, axis=0) for run in runs))
@@ -195,12 +226,45 @@ def _shifted(systems: Systems, solution: Solution, effect: Effect, norms: Array)
     return np.array([(run.design_of(solution.labels) / norms).T @ shift for run, shift in counted])
 
 
+def _columns(systems: Systems, solution: Solution, effect: Effect, norms: Array) -> list[Array]:
+    """Change of the design of every run, scaled like its columns, with the weights of its readings."""
+    chosen = [run.factor.labels.index(label) for run in systems.runs[:1] for label in solution.labels]
+    changes = (change[:, chosen] / norms for change in effect.columns or ())
+    weights = (run.weights for run in systems.runs)
+    return [c if w is None else c * w[:, np.newaxis] for c, w in zip(changes, weights, strict=False)]
+
+
+def _loads(systems: Systems, solution: Solution, effects: Sequence[Effect], norms: Array) -> _Loads:
+    """What effects on single loads change in the normal equations."""
+    changed = [(k, _columns(systems, solution, effect, norms)) for k, effect in enumerate(effects) if effect.columns]
+    designs = [run.design_of(solution.labels) / norms for run in systems.runs]
+    p, readings = len(norms), [run.reading for run in systems.runs]
+    half = np.array([sum(d.T @ a for d, a in zip(D, designs, strict=True)) for _, D in changed]).reshape(-1, p, p)
+    return _Loads(
+        which=np.array([k for k, _ in changed], dtype=int),
+        cross=half + half.swapaxes(1, 2),
+        square=np.array([[sum(d.T @ e for d, e in zip(D, E, strict=True)) for _, E in changed] for _, D in changed]),
+        moment=np.array([sum(d.T @ y for d, y in zip(D, readings, strict=True)) for _, D in changed]).reshape(-1, p),
+        shifted=np.array([[_across(D, effect) for effect in effects] for _, D in changed]).reshape(-1, len(effects), p),
+    )
+
+
+def _across(columns: Sequence[Array], effect: Effect) -> Array:
+    """`D^T s` over all runs for a change D of the design and a shift s of the readings."""
+    if effect.shift is None:
+        return np.zeros(columns[0].shape[1])
+    return np.asarray(sum(d.T @ s for d, s in zip(columns, effect.shift, strict=True)))
+
+
 def _sensitivity(systems: Systems, solution: Solution, effect: Effect, runs: _Moments) -> Array:
     """Change of the estimate per unit of the influence quantity, shape (p,)."""
     values = solution.values * runs.norms
     rest = runs.moment - runs.gram @ values
     moved = effect.stretch @ (runs.powers * rest - runs.gram @ (runs.powers * values))
     moved -= _shifted(systems, solution, effect, runs.norms).sum(axis=0)
+    loads = _loads(systems, solution, [effect], runs.norms)
+    for moment, cross in zip(loads.moment, loads.cross, strict=True):
+        moved += moment - cross @ values
     return np.asarray(np.linalg.solve(runs.gram.sum(axis=0), moved) / runs.norms)
 
 
@@ -213,6 +277,7 @@ def _sampler(systems: Systems, solution: Solution, effects: Sequence[Effect]) ->
     gram = np.einsum("gr,rpq->gpq", together, runs.gram)
     moment = together @ runs.moment
     shifted = np.array([together @ _shifted(systems, solution, effect, runs.norms) for effect in effects])
+    loads = _loads(systems, solution, effects, runs.norms)
     deviation = solution.standard_uncertainty * runs.norms
     # By run the covariance has no higher rank than there are runs: no Cholesky factor, but a root all the same.
     correlation = solution.covariance / np.outer(solution.standard_uncertainty, solution.standard_uncertainty)
@@ -224,7 +289,10 @@ def _sampler(systems: Systems, solution: Solution, effects: Sequence[Effect]) ->
         factors = (1.0 + sizes @ stretch)[:, :, np.newaxis] ** runs.powers
         moved = moment - np.einsum("ck,kgp->cgp", sizes, shifted)
         information = np.einsum("cgp,gpq,cgq->cpq", factors, gram, factors, optimize=True)
-        values = np.linalg.solve(information, np.sum(factors * moved, axis=1)[..., np.newaxis])[..., 0]
+        summed = np.sum(factors * moved, axis=1)
+        if len(loads.which):
+            information, summed = information + loads.information(sizes), summed + loads.moved(sizes)
+        values = np.linalg.solve(information, summed[..., np.newaxis])[..., 0]
         normal = random.standard_normal((count, len(root))) @ root.T
         scatter = stdtrit(solution.degrees_of_freedom, ndtr(normal)) * deviation
         return np.asarray((values + scatter) / runs.norms)

@@ -83,7 +83,7 @@ def _identified(test: MachineTest, systems: Systems, found: Confounding) -> Iden
     naive = solve(merged(systems.runs), found.retained, noise_of(systems.runs, systems.references))
     solution = _by_run(systems, found) or naive
     budget = uncertainty_budget(systems, solution, effects_of(test, systems))
-    traces = tuple(_trace(test, run, solution) for run in systems.runs)
+    traces = tuple(_trace(run, solution) for run in systems.runs)
     return Identification(
         test=test,
         reference_force=test.question.reference_force,
@@ -99,7 +99,7 @@ def _identified(test: MachineTest, systems: Systems, found: Confounding) -> Iden
         levels=tuple(_level(force, systems, traces, solution) for force in systems.levels),
         local=_adjacent_estimates(systems, found.retained),
         repeats=_repeats(systems, found.retained),
-        patterns=_patterns(test, systems, found),
+        patterns=_patterns(systems, found),
         rmse=rmse(np.concatenate([t.predicted for t in traces]), np.concatenate([t.measured for t in traces])),
         verdict=(),
     )
@@ -352,8 +352,8 @@ def _strongest(systems: Systems) -> RunSystem:
     return max(systems.runs, key=lambda run: abs(run.force))
 
 
-def _trace(test: MachineTest, run: RunSystem, solution: Solution) -> Trace:
-    return Trace(run.name, run.force, test.pose(run.name), run.reading, run.design_of(solution.labels) @ solution.values)
+def _trace(run: RunSystem, solution: Solution) -> Trace:
+    return Trace(run.name, run.force, run.observations.pose, run.reading, run.design_of(solution.labels) @ solution.values)
 
 
 def _level(force: float, systems: Systems, traces: Sequence[Trace], solution: Solution) -> Level:
@@ -436,10 +436,10 @@ def _of_reference(systems: Systems, repeated: Mapping[str, Sequence[RunSystem]],
     return Common(np.asarray(covariance / np.outer(norms, norms)), float(freedom))
 
 
-def _patterns(test: MachineTest, systems: Systems, found: Confounding) -> tuple[Pattern, ...]:
+def _patterns(systems: Systems, found: Confounding) -> tuple[Pattern, ...]:
     strongest = _strongest(systems)
     responses = {group: strongest.design_of([group[0]])[:, 0] for group in found.groups}
-    pose = test.pose(strongest.name)
+    pose = strongest.observations.pose
     return tuple(
         Pattern(group, pose, response / np.abs(response).max()) for group, response in responses.items() if response.any()
     )

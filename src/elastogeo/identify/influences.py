@@ -2,7 +2,8 @@
 
 Each kind is one small function that turns an entry of the test file into effects. A new kind is such a function, registered
 by `@effect`. An effect is either a relative change of the force of each run (the force stands in the design matrix, so this
-changes columns, each by its own power of the force, exactly), or a change of the readings.
+changes columns, each by its own power of the force, exactly), or a change of the readings, or of single loads, which changes
+the columns reading by reading. What is uncertain in the observations themselves comes with them.
 """
 
 from __future__ import annotations
@@ -17,8 +18,9 @@ import numpy as np
 from elastogeo.errors import InputError
 from elastogeo.estimate import Influence
 from elastogeo.identify.systems import RunSystem, Systems, same_force
-from elastogeo.machine import Array
+from elastogeo.machine import Array, Machine
 from elastogeo.observe import KnownInfluence, MachineTest
+from elastogeo.sources import load_derivative
 
 FORM_ORDERS = (2, 3, 4, 5)
 """Harmonics of a ball's form that are let loose; the first order is an offset of the ball."""
@@ -34,12 +36,15 @@ class Effect:
     stretch : array, shape (runs,)
         Relative change of the force of each run.
     shift : tuple of array, shape (m,), one per run, or None
-        Change of the readings [mm]; None if there is none.
+        By how much the readings are too great [mm]; None if they are not.
+    columns : tuple of array, shape (m, p), one per run, or None
+        Change of the design where it does not change with the force of the whole run; None if there is none.
     """
 
     influence: Influence
     stretch: Array
     shift: tuple[Array, ...] | None = None
+    columns: tuple[Array, ...] | None = None
 
 
 EffectMaker = Callable[[KnownInfluence, MachineTest, Systems], Iterator[Effect]]
@@ -64,12 +69,27 @@ def effects(test: MachineTest, systems: Systems) -> tuple[Effect, ...]:
     InputError
         If a kind is unknown, or an entry lacks the size that its kind needs.
     """
-    found: list[Effect] = []
+    found = list(_observed(test.machine, systems))
     for known in test.influences:
         if known.kind not in _KINDS:
             raise InputError(f"there is no influence {known.kind!r}; there are {', '.join(_KINDS)}")
         found.extend(_KINDS[known.kind](known, test, systems))
     return tuple(found)
+
+
+def _observed(machine: Machine, systems: Systems) -> Iterator[Effect]:
+    """The effects of what is uncertain in the observations themselves."""
+    for several in zip(*(run.observations.influences for run in systems.runs), strict=True):
+        first = several[0]
+        yield Effect(
+            Influence(first.label, first.standard_uncertainty, "normal", first.degrees_of_freedom),
+            np.zeros(len(systems.runs)),
+            tuple(-one.reading for one in several),
+            tuple(
+                load_derivative(systems.sources, machine, run.observations, one.wrench)
+                for run, one in zip(systems.runs, several, strict=True)
+            ),
+        )
 
 
 @effect("force-scale")
@@ -111,13 +131,13 @@ def sensor_scale(known: KnownInfluence, _: MachineTest, systems: Systems) -> Ite
 
 
 @effect("ball-form")
-def ball_form(known: KnownInfluence, test: MachineTest, systems: Systems) -> Iterator[Effect]:
+def ball_form(known: KnownInfluence, _: MachineTest, systems: Systems) -> Iterator[Effect]:
     """The balls are not round: half the peak-to-valley of their form, as harmonics of unknown phase, alike in all runs."""
     whole = _influence(known, known.length, "length_um")
     part = replace(whole, scale=whole.scale / sqrt(len(FORM_ORDERS)))
     for order in FORM_ORDERS:
         for wave in (np.cos, np.sin):
-            yield _reading_effect(part, systems, partial(_harmonic, test, order, wave))
+            yield _reading_effect(part, systems, partial(_harmonic, order, wave))
 
 
 @effect("setup-deflection")
@@ -139,8 +159,8 @@ def thermal_drift(known: KnownInfluence, _: MachineTest, systems: Systems) -> It
     )
 
 
-def _harmonic(test: MachineTest, order: int, wave: Callable[[Array], Array], run: RunSystem) -> Array:
-    return wave(order * test.pose(run.name))
+def _harmonic(order: int, wave: Callable[[Array], Array], run: RunSystem) -> Array:
+    return wave(order * run.observations.pose)
 
 
 def _influence(known: KnownInfluence, scale: float | None, field: str, where: str = "") -> Influence:

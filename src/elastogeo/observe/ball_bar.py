@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,9 +11,10 @@ from elastogeo.errors import InputError
 from elastogeo.machine import Array, Feed, LengthPerPressure, Machine, OptionalPoint, follow
 from elastogeo.observe.circle import Circle
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
+from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, check_observations
-from elastogeo.observe.trial import Run
+from elastogeo.observe.trial import Respond, Run
 
 MOST_TURNS = 10.0
 """Turns that a run may have."""
@@ -73,6 +75,7 @@ class LoadedBallBar:
         observations = Observations(
             run=run.name,
             force=force,
+            pose=angle,
             commands=commands.position,
             velocity=commands.velocity,
             acceleration=commands.acceleration,
@@ -88,6 +91,21 @@ class LoadedBallBar:
         check_observations(observations)
         _check_units(run, self.circle.radius)
         return observations
+
+    def observe_all(self, machine: Machine, runs: Sequence[Run]) -> tuple[Observations, ...]:
+        """The observations of every run, each by itself."""
+        return tuple(self.observe(machine, run) for run in runs)
+
+    def simulated(
+        self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
+    ) -> Run:
+        """The run with the readings that the bar would give at its angles."""
+        angle = self._angle(replace(run, columns={**run.columns, "radial": run.columns["angle"]}))
+        blank = self.observe(machine, replace(run, columns={"angle": angle, "radial": np.zeros(len(angle))}))
+        true = respond(replace(blank, wrench=blank.wrench * imperfection.force_factor(random)))
+        # What the set-up's correction will take off is what the raw reading has on top.
+        radial = imperfection.added_to(true - blank.reading, angle, blank.force, random)
+        return replace(run, columns={"angle": angle, "radial": radial})
 
     def force(self, run: Run) -> float:
         """Force [N] with which the bar pushed in a run.

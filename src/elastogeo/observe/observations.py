@@ -17,6 +17,35 @@ from elastogeo.machine import Array
 
 
 @dataclass(frozen=True, slots=True)
+class ObservedInfluence:
+    """A systematic influence that came in with the observations themselves, alike in all runs of the test.
+
+    Attributes
+    ----------
+    label : str
+        One label may name several influences: they count together.
+    standard_uncertainty : float
+        Of the influence quantity.
+    degrees_of_freedom : float
+        Of that uncertainty.
+    wrench : array, shape (m, 6) [N, N mm]
+        Change of the wrench per unit of the quantity.
+    reading : array, shape (m,) [mm or rad]
+        Change of the reading per unit of the quantity.
+    """
+
+    label: str
+    standard_uncertainty: float
+    degrees_of_freedom: float
+    wrench: Array
+    reading: Array
+
+    def rows(self, part: slice) -> ObservedInfluence:
+        """The same influence on a block of the readings."""
+        return replace(self, wrench=self.wrench[part], reading=self.reading[part])
+
+
+@dataclass(frozen=True, slots=True)
 class Observations:
     """Readings of one run, in the units of the house (mm, N, rad, s, N mm), in the foundation frame.
 
@@ -26,6 +55,8 @@ class Observations:
         Name of the run.
     force : float [N]
         Force level of the run.
+    pose : array, shape (m,)
+        What the readings count along: the angle of a bar [rad], the force of a ramp [N], ...
     commands : array, shape (m, n) [mm, rad]
         Axis commands, in the order of the machine's axes.
     velocity : array, shape (m, n) [mm/s, rad/s]
@@ -49,10 +80,13 @@ class Observations:
     length : float [mm]
         Nominal distance of the two points if the instrument reads its change; infinite if it reads the displacement along
         a fixed direction.
+    influences : tuple of ObservedInfluence
+        What is uncertain in wrench and reading together, and alike in all runs.
     """
 
     run: str
     force: float
+    pose: Array
     commands: Array
     velocity: Array
     acceleration: Array | None
@@ -64,6 +98,7 @@ class Observations:
     tool: Array
     workpiece: Array
     length: float = float("inf")
+    influences: tuple[ObservedInfluence, ...] = ()
 
     def __len__(self) -> int:
         """How many readings."""
@@ -78,6 +113,7 @@ class Observations:
         part = slice(first, last)
         return replace(
             self,
+            pose=self.pose[part],
             commands=self.commands[part],
             velocity=self.velocity[part],
             acceleration=None if self.acceleration is None else self.acceleration[part],
@@ -85,6 +121,7 @@ class Observations:
             wrench=self.wrench[part],
             reading=self.reading[part],
             correction=self.correction[part],
+            influences=tuple(influence.rows(part) for influence in self.influences),
         )
 
 
@@ -101,7 +138,7 @@ def check_observations(observations: Observations) -> Observations:
         raise InputError(f"run {name!r} has no reading")
     if not isfinite(observations.force):
         raise InputError(f"run {name!r}: the force is {observations.force}, it must be a finite number of newtons")
-    for quantity in ("commands", "velocity", "direction", "wrench", "reading"):
+    for quantity in ("commands", "velocity", "direction", "wrench", "reading", "pose"):
         values = np.atleast_2d(getattr(observations, quantity).T)
         if not np.isfinite(values).all():
             row = int(np.flatnonzero(~np.isfinite(values).all(axis=0))[0])

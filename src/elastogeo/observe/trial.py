@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import inf
 from typing import Protocol
 
+import numpy as np
+
 from elastogeo.errors import InputError
 from elastogeo.machine import Array, Forces, Machine, OptionalForce, OptionalLength, OptionalPressure
+from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.observations import Observations
 
 
@@ -39,19 +42,31 @@ class Run:
     repeat: int = 1
 
 
+Respond = Callable[[Observations], Array]
+"""The true readings of observations, shape (m,), on a machine whose parameters are known: to simulate with."""
+
+
 class Setup(Protocol):
     """How an instrument was set up: the contract of an instrument.
 
-    An instrument is one file of this room: a frozen dataclass of its settings (in the units of the house) with the two
-    members below, registered by `instrument`. The fields are what a test file may set, under their names with a unit.
+    An instrument is one file of this room: a frozen dataclass of its settings (in the units of the house) with the members
+    below, registered by `instrument`. The fields are what a test file may set, under their names with a unit.
     """
 
     @property
     def quantities(self) -> tuple[str, ...]:
-        """Columns that a run file must have: what sets the pose, then the reading."""
+        """Columns that a run file must have: what the readings count along, then the reading."""
 
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations that a run amounts to."""
+
+    def observe_all(self, machine: Machine, runs: Sequence[Run]) -> tuple[Observations, ...]:
+        """The observations of all runs of a test, where one may tell something of another; else one `observe` each."""
+
+    def simulated(
+        self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
+    ) -> Run:
+        """The run as the instrument would record it at its poses, with its imperfections."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,10 +165,6 @@ class MachineTest:
         if not names:
             raise InputError(f"test {self.name!r} has no run")
 
-    def pose(self, run: str) -> Array:
-        """What the file of a run counts along, shape (m,): the angle of a ball bar [rad]."""
-        return next(r.columns[self.setup.quantities[0]] for r in self.runs if r.name == run)
-
     def observations(self) -> tuple[Observations, ...]:
-        """The observations of every run, in order."""
-        return tuple(self.setup.observe(self.machine, run) for run in self.runs)
+        """The observations of every run that holds readings, in order."""
+        return self.setup.observe_all(self.machine, self.runs)

@@ -8,6 +8,7 @@ from elastogeo.sources.response import (
     design_rows,
     exact_response,
     linear_response,
+    load_derivative,
     site_twists,
 )
 from elastogeo.sources.simulate import parameter_values, simulate
@@ -27,6 +28,7 @@ __all__ = [
     "families",
     "family",
     "linear_response",
+    "load_derivative",
     "parameter_values",
     "select_sources",
     "simulate",

@@ -6,8 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from elastogeo.machine import Array, Machine, Site, loop_frames
+from elastogeo.errors import UnsupportedError
+from elastogeo.machine import Array, LoopFrames, Machine, Site, loop_frames
 from elastogeo.observe import Observations, Run, Setup
 from elastogeo.sources.situation import Situation
 from elastogeo.sources.source import Source
@@ -38,6 +40,41 @@ def design_rows(sources: Sequence[Source], machine: Machine, observations: Obser
         rows[:, k] = source.column(situation)
     rows[:, -1] = observations.reading
     return rows
+
+
+def load_derivative(sources: Sequence[Source], machine: Machine, observations: Observations, change: Array) -> Array:
+    """Derivative of the design by the loads, along a change of the wrench.
+
+    Parameters
+    ----------
+    sources : sequence of Source, length p
+    machine : Machine
+    observations : Observations
+        m readings.
+    change : array, shape (m, 6) [N, N mm]
+        Of the wrench, per unit of whatever changes it.
+
+    Returns
+    -------
+    array, shape (m, p)
+        Exact for geometry and for compliances, whose columns are linear in the load.
+
+    Raises
+    ------
+    UnsupportedError
+        If a source's column is another function of the load.
+    """
+    other = [source.name for source in sources if source.force_degree not in (0.0, 1.0)]
+    if other:
+        raise UnsupportedError(
+            f"the uncertainty of single loads is propagated through constant compliances only; leave out {', '.join(other)}"
+        )
+    situation = Situation(machine, replace(observations, wrench=change))
+    columns = np.zeros((len(observations), len(sources)))
+    for k, source in enumerate(sources):
+        if source.force_degree:
+            columns[:, k] = source.column(situation)
+    return columns
 
 
 def design_blocks(
@@ -115,7 +152,20 @@ def exact_response(values: Mapping[Source, float], machine: Machine, observation
     if np.isfinite(observations.length):
         return np.asarray(np.linalg.norm(tool - ball, axis=1) - observations.length + at_reading)
     nominal = situation.frames.point - situation.frames.workpiece.point(observations.workpiece)
-    return np.asarray(np.einsum("mi,mi->m", observations.direction[:, :3], tool - ball - nominal) + at_reading)
+    displacement = np.einsum("mi,mi->m", observations.direction[:, :3], tool - ball - nominal)
+    return np.asarray(displacement + _rotation_seen(frames, situation) + at_reading)
+
+
+def _rotation_seen(frames: LoopFrames, situation: Situation) -> Array | float:
+    """What an angular direction sees, shape (m,) [rad]: the rotation of the tool relative to the workpiece."""
+    about = situation.observations.direction[:, 3:]
+    if not about.any():
+        return 0.0
+    nominal = situation.frames
+    tool = frames.tool.rotation @ nominal.tool.rotation.swapaxes(1, 2)
+    workpiece = frames.workpiece.rotation @ nominal.workpiece.rotation.swapaxes(1, 2)
+    turned = Rotation.from_matrix(tool @ workpiece.swapaxes(1, 2)).as_rotvec()
+    return np.asarray(np.einsum("mi,mi->m", about, np.broadcast_to(turned, about.shape)))
 
 
 def site_twists(values: Iterable[tuple[Source, float]], situation: Situation) -> dict[Site, Array]:

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from elastogeo.machine import Machine
-from elastogeo.observe import Imperfection, MachineTest, Run
+from elastogeo.machine import Array, Machine
+from elastogeo.observe import Imperfection, MachineTest, Observations
 from elastogeo.sources.catalogue import select_sources
 from elastogeo.sources.response import exact_response, linear_response
 from elastogeo.sources.source import Source
@@ -54,24 +54,11 @@ def simulate(
     """
     random = np.random.default_rng(seed)
     truth = parameter_values(test.machine, values)
-    runs = tuple(_simulated(test, run, truth, imperfection or Imperfection(), random, exact) for run in test.runs)
+    response = exact_response if exact else linear_response
+
+    def respond(observations: Observations) -> Array:
+        return response(truth, test.machine, observations)
+
+    instrument = imperfection or Imperfection()
+    runs = tuple(test.setup.simulated(test.machine, run, respond, instrument, random) for run in test.runs)
     return replace(test, runs=runs, simulated=test.simulated or f"simulated with seed {seed}")
-
-
-def _simulated(
-    test: MachineTest,
-    run: Run,
-    truth: Mapping[Source, float],
-    imperfection: Imperfection,
-    random: np.random.Generator,
-    exact: bool,
-) -> Run:
-    pose, quantity = test.setup.quantities
-    at = run.columns[pose]
-    blank = replace(run, columns={pose: at, quantity: np.zeros(len(at))})
-    observations = test.setup.observe(test.machine, blank)
-    pushed = replace(observations, wrench=observations.wrench * imperfection.force_factor(random))
-    response = (exact_response if exact else linear_response)(truth, test.machine, pushed)
-    # What the instrument's set-up corrections will take off is what the raw reading has on top.
-    raw = response - observations.reading
-    return replace(run, columns={pose: at, quantity: imperfection.added_to(raw, at, observations.force, random)})
