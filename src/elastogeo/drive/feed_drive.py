@@ -33,6 +33,8 @@ class FeedDrive:
         Share of the torque that arrives as force, eta.
     sense : int
         +1 if a positive current moves the axis to greater positions, -1 if to smaller ones.
+    relative_uncertainty : float
+        Relative standard uncertainty of the force per current: of motor constant, transmission and efficiency together.
     """
 
     axis: str
@@ -43,6 +45,7 @@ class FeedDrive:
     gear_ratio: float = 1.0
     efficiency: float = 1.0
     sense: int = 1
+    relative_uncertainty: float = 0.0
 
     def __post_init__(self) -> None:
         """Refuse a drive that contradicts itself."""
@@ -60,6 +63,10 @@ class FeedDrive:
             raise InputError(f"{where} has a constant, pitch, radius or ratio that is not a positive number")
         if not 0 < self.efficiency <= 1:
             raise InputError(f"{where} has the efficiency {self.efficiency:g}; it lies between 0 and 1 (90 % is 0.9)")
+        if not 0 <= self.relative_uncertainty < 1:
+            raise InputError(
+                f"{where} has the relative uncertainty {self.relative_uncertainty:g}; it lies between 0 and 1 (5 % is 0.05)"
+            )
         if self.sense not in (1, -1):
             raise InputError(f"{where} has the sense {self.sense}; write 1 or -1")
 

@@ -262,9 +262,9 @@ def _sensitivity(systems: Systems, solution: Solution, effect: Effect, runs: _Mo
     rest = runs.moment - runs.gram @ values
     moved = effect.stretch @ (runs.powers * rest - runs.gram @ (runs.powers * values))
     moved -= _shifted(systems, solution, effect, runs.norms).sum(axis=0)
-    loads = _loads(systems, solution, [effect], runs.norms)
-    for moment, cross in zip(loads.moment, loads.cross, strict=True):
-        moved += moment - cross @ values
+    for run, change in zip(systems.runs, _columns(systems, solution, effect, runs.norms), strict=False):
+        design = run.design_of(solution.labels) / runs.norms
+        moved += change.T @ (run.reading - design @ values) - design.T @ (change @ values)
     return np.asarray(np.linalg.solve(runs.gram.sum(axis=0), moved) / runs.norms)
 
 

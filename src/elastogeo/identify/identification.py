@@ -108,7 +108,7 @@ def _identified(test: MachineTest, systems: Systems, found: Confounding) -> Iden
 def _assessed(result: Identification, systems: Systems) -> Identification:
     """The result with its verdict, and with what models and physics say where they can."""
     parameters, geometric = result.parameters, [p.name for p in result.parameters if not p.elastic]
-    elastic = any(p.elastic for p in parameters) and all(p.separated for p in parameters)
+    elastic = any(p.elastic and p.axis for p in parameters) and all(p.separated for p in parameters)
     if elastic and not systems.references and len(systems.levels) >= LEVELS_FOR_MODELS:
         result = replace(result, models=compare_models(result.test.machine, systems, result.confounding.retained))
     result, drawn = _held_against_draws(result, systems)

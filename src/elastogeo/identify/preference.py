@@ -44,7 +44,7 @@ def moving_axes(machine: Machine, observations: Iterable[Observations]) -> froze
 
 def _rank(source: Source, machine: Machine, moving: frozenset[str]) -> tuple[int, ...]:
     axis, displacement, load = source.site[1], source.component, source.load
-    if load is None:
+    if load is None or not axis:
         return (_LAST,)
     joint = machine.joints[machine.index(axis)]
     on_axis = displacement == load == joint.direction + 3 * joint.is_rotary

@@ -53,6 +53,11 @@ class LoadedBallBar:
         """Columns that a run file must have."""
         return ("angle", "radial")
 
+    @property
+    def pose_quantity(self) -> str:
+        """The angle in the plane of the circle."""
+        return "angle"
+
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations that a run amounts to.
 

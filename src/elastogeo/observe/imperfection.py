@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from elastogeo.machine import Angle, Array, Length, LengthPerForce
+from elastogeo.machine import Angle, Array, Current, Length, LengthPerForce
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +44,8 @@ class Imperfection:
     force_scatter : float
         Relative standard deviation, from run to run, of the force about its level.
     residue : tuple of Residue
+    current_noise : float [A]
+        Standard deviation of white Gaussian noise of a motor's current.
     """
 
     noise: Length = 0.0
@@ -51,6 +53,7 @@ class Imperfection:
     eccentricity: Length = 0.0
     force_scatter: float = 0.0
     residue: tuple[Residue, ...] = ()
+    current_noise: Current = 0.0
 
     def force_factor(self, random: np.random.Generator) -> float:
         """By what factor the force of a run is off its level."""
@@ -63,4 +66,11 @@ class Imperfection:
         for harmonic in self.residue:
             amplitude = harmonic.amplitude + harmonic.amplitude_per_force * force
             seen += amplitude * np.cos(harmonic.order * angle + harmonic.phase)
+        return self._resolved(seen)
+
+    def noisy(self, position: Array, random: np.random.Generator) -> Array:
+        """A position, shape (m,) [mm], as an encoder with this noise and resolution gives it."""
+        return self._resolved(position + self.noise * random.standard_normal(len(position)))
+
+    def _resolved(self, seen: Array) -> Array:
         return np.asarray(np.round(seen / self.resolution) * self.resolution if self.resolution else seen)

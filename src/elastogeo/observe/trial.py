@@ -28,6 +28,8 @@ class Run:
         Force level, if it was given as such.
     pressure : float or None [bar]
         Pressure level, if the force follows from it.
+    engagement : float or None [mm]
+        Commanded engagement of a roller in a ball; zero or none where it only circles around it.
     sense : int
         +1 counter-clockwise, -1 clockwise.
     repeat : int
@@ -38,6 +40,7 @@ class Run:
     columns: Mapping[str, Array]
     force: OptionalForce = None
     pressure: OptionalPressure = None
+    engagement: OptionalLength = None
     sense: int = 1
     repeat: int = 1
 
@@ -55,7 +58,11 @@ class Setup(Protocol):
 
     @property
     def quantities(self) -> tuple[str, ...]:
-        """Columns that a run file must have: what the readings count along, then the reading."""
+        """Columns that a run file must have."""
+
+    @property
+    def pose_quantity(self) -> str:
+        """What the readings count along: `angle` if they go around a circle."""
 
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations that a run amounts to."""

@@ -44,10 +44,12 @@ PRESETS: dict[str, tuple[str, ...]] = {
         *("C_XXX", "C_XYX", "C_YYY", "C_CXY", "C_CYY", "C_CCY"),
         *("E_XX1", "E_YX2", "E_XY2", "E_YY1", "E_C(0Y)X", "E_Xt0", "E_Yt0"),
     ),
+    "volumetric": ("V_*", "G_*"),
     "geometry-3-axis": ("E_[XYZABC][XYZ][12]", "E_[ABC](0*)[XYZ]"),
     "geometry-5-axis": ("E_[XYZABC][XYZ][12]", "E_[XYZABC][ABC][cs]1", "E_?(0*)[XYZABC]"),
 }
-"""Named selections: all joint compliances; those of one plane; ball bar diagnosis; the 13 of Table 5.1; whole machines.
+"""Named selections: all joint compliances; those of one plane; ball bar diagnosis; the 13 of Table 5.1; compliance and path
+by direction; whole machines.
 
 In a pattern `|` separates alternatives, of which the first that selects anything counts; an empty one may select nothing.
 """
@@ -71,11 +73,13 @@ def select_sources(machine: Machine, patterns: Iterable[str]) -> tuple[Source, .
     Raises
     ------
     SelectionError
-        If one of them selects nothing, or there is none.
+        If one of them selects nothing or is empty, or there is none.
     """
     known = catalogue(machine)
     selected: dict[str, Source] = {}
     for pattern in patterns:
+        if not pattern.strip("| "):
+            raise SelectionError(f"{pattern!r} among the parameters names none; take it out, or name one, for example C_XXX")
         for part in PRESETS.get(pattern, (pattern,)):
             selected.update(_first_matching(known, part, machine))
     if not selected:

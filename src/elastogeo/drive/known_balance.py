@@ -1,0 +1,151 @@
+"""What is known of a drive's own torques beforehand: Eq. 6.6 with its parameters as a test file may give them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from elastogeo.drive.balance import TorqueBalance, TorqueModel
+from elastogeo.drive.feed_drive import FeedDrive
+from elastogeo.drive.terms import Motion
+from elastogeo.errors import InputError
+from elastogeo.machine import ROTARY, Array, Damping, Inertia, OptionalFeed, OptionalTorque, Torque
+
+_TERMS = ("inertia", "viscous", "coulomb asymmetric", "constant")
+
+
+@dataclass(frozen=True, slots=True)
+class KnownBalance:
+    """The torques that a rotary motor needs for its axis alone.
+
+    Attributes
+    ----------
+    axis : str
+    inertia : float [N mm s^2]
+        J_T, all that turns and moves with the motor, seen at its shaft.
+    viscous : float [N mm s/rad]
+        B_T.
+    coulomb : float [N mm]
+        tau_c.
+    coulomb_backward : float or None [N mm]
+        tau_c of motion to smaller positions; None if it is the same.
+    constant : float [N mm]
+        Gravity, preload.
+    smooth_speed : float or None [mm/s, or rad/s of a rotary axis]
+        Speed over which the Coulomb torque changes its sign, `tanh(v / smooth_speed)`; None for a sharp sign.
+    """
+
+    axis: str
+    inertia: Inertia = 0.0
+    viscous: Damping = 0.0
+    coulomb: Torque = 0.0
+    coulomb_backward: OptionalTorque = None
+    constant: Torque = 0.0
+    smooth_speed: OptionalFeed = None
+
+    def __post_init__(self) -> None:
+        """Refuse torques that would drive the motor."""
+        sizes = (self.inertia, self.viscous, self.coulomb, self.coulomb_backward or 0.0)
+        if any(not size >= 0 for size in sizes) or not np.isfinite([*sizes, self.constant]).all():
+            raise InputError(f"the balance of axis {self.axis} has an inertia or a friction that is negative or no number")
+        if self.smooth_speed is not None and not self.smooth_speed > 0:
+            raise InputError(
+                f"the balance of axis {self.axis} has the smooth speed {self.smooth_speed:g}; it must be positive"
+            )
+
+
+def known_torque_balance(known: KnownBalance, drive: FeedDrive, least_speed: float = 0.0) -> TorqueBalance:
+    """The balance of a drive whose torques are known: without uncertainty, against the motion of its axis.
+
+    Parameters
+    ----------
+    known : KnownBalance
+    drive : FeedDrive
+        With its transmission.
+    least_speed : float [mm/s; rad/s of a rotary axis]
+        Of the samples that the balance may be held against.
+
+    Raises
+    ------
+    InputError
+        If the transmission is not known.
+    """
+    ratio = drive.transmission_ratio
+    if ratio is None:
+        raise InputError(f"the drive of axis {drive.axis} has no pitch_mm and no pinion_radius_mm; how fast does it turn?")
+    model = TorqueModel(_TERMS, least_speed, known.smooth_speed)
+    backward = known.coulomb if known.coulomb_backward is None else known.coulomb_backward
+    length = "rad" if drive.axis in ROTARY else "mm"
+    return TorqueBalance(
+        axis=drive.axis,
+        model=model,
+        labels=model.labels,
+        values=np.array([known.inertia / ratio, known.viscous / ratio, known.coulomb, backward, known.constant]),
+        covariance=np.zeros((len(model.labels), len(model.labels))),
+        degrees_of_freedom=np.full(len(model.labels), np.inf),
+        residual_std=0.0,
+        units={
+            label: unit.format(effort="N mm", length=length) for term in model.chosen for label, unit in term.units.items()
+        },
+        effort_unit="N mm",
+    )
+
+
+def balance_effort(known: KnownBalance, drive: FeedDrive, velocity: Array, acceleration: Array) -> Array:
+    """Torque [N mm] that a motor needs to move its axis, shape (m,): Eq. 6.6 without its disturbance.
+
+    Parameters
+    ----------
+    known : KnownBalance
+    drive : FeedDrive
+        With its transmission.
+    velocity, acceleration : array, shape (m,) [mm/s, mm/s^2; rad/s, rad/s^2 of a rotary axis]
+        Of the axis.
+
+    Raises
+    ------
+    InputError
+        If the transmission is not known.
+    """
+    balance = known_torque_balance(known, drive)
+    motion = Motion(velocity, acceleration, known.smooth_speed)
+    return np.hstack([term.columns(motion) for term in balance.model.chosen]) @ balance.values
+
+
+@dataclass(frozen=True, slots=True)
+class MotorParameter:
+    """One parameter of a torque balance, as the motor feels it.
+
+    Attributes
+    ----------
+    label : str
+    value, standard_uncertainty : float
+    unit : str
+    degrees_of_freedom : float
+    """
+
+    label: str
+    value: float
+    standard_uncertainty: float
+    unit: str
+    degrees_of_freedom: float
+
+
+_AT_SHAFT = {"inertia": "kg m²", "viscous": "N m s/rad"}
+"""Units of what goes with the speed of the shaft; the others are torques."""
+
+
+def motor_parameters(balance: TorqueBalance, drive: FeedDrive) -> tuple[MotorParameter, ...]:
+    """A balance against the motion of an axis, turned to the motor's shaft (Table 6.4); one in N or A stays as it is."""
+    sizes = np.sqrt(np.diag(balance.covariance))
+    found = zip(balance.labels, balance.values, sizes, balance.degrees_of_freedom, strict=True)
+    if balance.effort_unit != "N mm" or drive.transmission_ratio is None:
+        return tuple(MotorParameter(label, float(v), float(u), balance.units[label], float(f)) for label, v, u, f in found)
+    parameters = []
+    for label, value, size, freedom in found:
+        kind = label.split()[0]
+        factor = 1e-3 * (drive.transmission_ratio if kind in _AT_SHAFT else 1.0)
+        unit = _AT_SHAFT.get(kind, "N m")
+        parameters.append(MotorParameter(label, float(value * factor), float(size * factor), unit, float(freedom)))
+    return tuple(parameters)

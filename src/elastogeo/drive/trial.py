@@ -1,0 +1,80 @@
+"""A test of feed drives: the records of its runs, and what is asked of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from elastogeo.drive.balance import TorqueModel
+from elastogeo.drive.feed_drive import FeedDrive
+from elastogeo.drive.records import DriveRecord
+from elastogeo.errors import InputError
+
+EVERY_LOG = "all logs"
+"""How a note begins that holds for all logs of a test."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DriveTest:
+    """Records of feed drives, and what is asked of them.
+
+    Attributes
+    ----------
+    name : str
+    records : tuple of DriveRecord
+        Of every run and axis.
+    drives : mapping of str to FeedDrive
+        By axis, as far as they are known.
+    model : TorqueModel
+    searched : tuple of str
+        Parameters of the model to search.
+    known : mapping of str to mapping of str to float
+        Parameters that are given, by axis and name.
+    held_out : tuple of str
+        Runs that are predicted only.
+    compare : bool
+        Whether richer models are compared.
+    notes : tuple of str
+        What was done to the logs.
+    simulated : str
+        From what the records are simulated; empty if they were measured.
+    """
+
+    name: str
+    records: tuple[DriveRecord, ...]
+    drives: Mapping[str, FeedDrive] = field(default_factory=dict)
+    model: TorqueModel = field(default_factory=TorqueModel)
+    searched: tuple[str, ...] = ()
+    known: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    held_out: tuple[str, ...] = ()
+    compare: bool = True
+    notes: tuple[str, ...] = ()
+    simulated: str = ""
+
+    def __post_init__(self) -> None:
+        """Refuse a test that asks of runs or axes that are not there."""
+        runs = self.runs
+        if not runs:
+            raise InputError(f"{self.name}: there is no record of a drive; give the log of one run or more")
+        strangers = [run for run in self.held_out if run not in runs]
+        if strangers:
+            raise InputError(f"the run {strangers[0]!r} is to be held out, but there are {', '.join(runs)}")
+        if set(self.held_out) >= set(runs):
+            raise InputError("all runs are to be held out; leave some to identify the drives from")
+        unknown = [axis for axis in self.known if axis not in self.axes]
+        if unknown:
+            raise InputError(f"a parameter of axis {unknown[0]} is known, but there are records of {', '.join(self.axes)}")
+
+    @property
+    def runs(self) -> tuple[str, ...]:
+        """Names of the runs, in the order of the records."""
+        return tuple(dict.fromkeys(record.run for record in self.records))
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """The axes, in the order of the records."""
+        return tuple(dict.fromkeys(record.axis for record in self.records))
+
+    def of(self, axis: str) -> list[DriveRecord]:
+        """The records of one axis."""
+        return [record for record in self.records if record.axis == axis]
