@@ -110,3 +110,85 @@ def test_the_example_says_that_it_is_simulated_and_from_what():
     assert "Tables 5.5 and 5.6" in test.simulated
     assert sorted({run.pressure for run in test.runs}) == [0.4, 1, 2, 3, 4, 5, 6]
     assert [len([r for r in test.runs if r.pressure == p]) for p in (3, 4)] == [5, 5]
+
+
+LOG = "Time [ms],X1_Pos,X1_Cur,Phase\n" + "".join(f"{2 * k},{k / 8},{k / 4 - 1},run\n" for k in range(50))
+CHANNELS = """
+[[channels]]
+quantity = "angle"
+channel = "X1_Pos"
+unit = "deg"
+
+[[channels]]
+quantity = "radial"
+channel = "X1_Cur"
+unit = "um"
+delay_ms = 4
+"""
+
+
+def with_logs(folder, text=LOG, more="", runs=""):
+    """The test, each run of which is a log instead."""
+    (folder / "runs").mkdir()
+    names = ("36N-1", "36N-2", "742N-1", "742N-2")
+    for name in names:
+        (folder / "runs" / f"{name}.csv").write_text(text)
+    document = (folder / "test.toml").read_text().replace('sense = "ccw"', f'sense = "ccw"\n{runs}')
+    (folder / "test.toml").write_text(document + more)
+    return folder
+
+
+def test_a_test_that_names_channels_reads_its_runs_as_logs(folder):
+    run = read_test(with_logs(folder, more=CHANNELS)).runs[0]
+    assert list(run.columns) == ["time", "angle", "radial"]
+    steps = np.arange(48)
+    np.testing.assert_allclose(run.columns["time"], 0.002 * steps, atol=1e-15)
+    np.testing.assert_allclose(run.columns["angle"], np.deg2rad(steps / 8), atol=1e-15)
+    np.testing.assert_allclose(run.columns["radial"], ((steps + 2) / 4 - 1) / 1000, atol=1e-15)
+
+
+def test_a_run_may_be_a_part_of_a_log(folder):
+    run = read_test(with_logs(folder, more=CHANNELS, runs="start_ms = 20\nend_s = 0.04")).runs[-1]
+    np.testing.assert_allclose(run.columns["angle"], np.deg2rad(np.arange(10, 21) / 8))
+    np.testing.assert_allclose(run.columns["radial"], (np.arange(12, 23) / 4 - 1) / 1000)
+    np.testing.assert_allclose(run.columns["time"], 0.002 * np.arange(11), atol=1e-15)
+
+
+def test_the_clock_of_a_test_is_that_of_logs_without_one(folder):
+    text = "\n".join(line.partition(",")[2] for line in LOG.splitlines()) + "\n"
+    with_logs(folder, text, CHANNELS)
+    with pytest.raises(FormatError, match=r"36N-1\.csv, channel 'X1_Pos': the file keeps no clock"):
+        read_test(folder)
+    (folder / "test.toml").write_text((folder / "test.toml").read_text() + "\n[clock]\nsample_time_ms = 4\n")
+    np.testing.assert_allclose(read_test(folder).runs[0].columns["time"][:3], [0, 0.004, 0.008])
+
+
+def test_a_log_that_is_no_run_is_told_from_its_content(folder):
+    text = '{"Header": {"SignalListHFData": [{"Name": "CYCLE"}, {"Name": "angle_deg"}], "CycleTimeMs": 2}, "Payload": []}'
+    with pytest.raises(FormatError, match=r"36N-1\.csv: its Payload holds no row of HFData"):
+        read_test(with_logs(folder, text))
+
+
+def test_a_run_of_readings_is_read_as_before(folder):
+    test, truth = simulated(folder)
+    write_runs(folder, test, truth.seed)
+    assert "time" not in read_test(folder).runs[0].columns
+
+
+@pytest.mark.parametrize(
+    ("more", "runs", "message"),
+    [
+        (CHANNELS.replace('"um"', '"Ampere"'), "", "channels 2: the unit 'Ampere' of radial is not known"),
+        (CHANNELS.replace("delay_ms", "delay"), "", "channels 2, delay has no unit; write for example delay_s"),
+        (CHANNELS.replace("channel =", "chanel ="), "", "chanel is not known; did you mean channel?"),
+        (CHANNELS + "[clock]\nlongest_gap_s = 0\n", "", "clock: longest_gap is 0.0 s; it must be above zero"),
+        (CHANNELS, "start_s = 3\nend_s = 2", "the run begins at 3 s and ends at 2 s; let it end later"),
+        (CHANNELS, "start_s = 3", "angle has 0 samples from 3 s to inf s; it is recorded from 0 s to 0.098 s"),
+        ("", "start_s = 0.01", "no channel says what it is and its unit"),
+    ],
+)
+def test_what_a_test_says_wrongly_of_a_log_is_told(folder, more, runs, message):
+    with_logs(folder, more=more, runs=runs)
+    with pytest.raises(FormatError) as caught:
+        read_test(folder)
+    assert message in str(caught.value)

@@ -6,57 +6,75 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from elastogeo.drive.balance import TorqueBalance, TorqueModel
+from elastogeo.drive.balance import TorqueBalance
 from elastogeo.drive.feed_drive import FeedDrive
+from elastogeo.drive.model import PLAIN, TorqueModel
 from elastogeo.drive.terms import Motion
 from elastogeo.errors import InputError
-from elastogeo.machine import ROTARY, Array, Damping, Inertia, OptionalFeed, OptionalTorque, Torque
-
-_TERMS = ("inertia", "viscous", "coulomb asymmetric", "constant")
+from elastogeo.machine import ROTARY, Array, OptionalDamping, OptionalFeed, OptionalInertia, OptionalTorque
 
 
 @dataclass(frozen=True, slots=True)
 class KnownBalance:
-    """The torques that a rotary motor needs for its axis alone.
+    """The torques that a rotary motor needs for its axis alone, as far as they are known.
 
     Attributes
     ----------
     axis : str
-    inertia : float [N mm s^2]
-        J_T, all that turns and moves with the motor, seen at its shaft.
-    viscous : float [N mm s/rad]
+    inertia : float or None [N mm s^2]
+        J_T, all that turns and moves with the motor, seen at its shaft; None, here and below, if it is not known.
+    viscous : float or None [N mm s/rad]
         B_T.
-    coulomb : float [N mm]
+    coulomb : float or None [N mm]
         tau_c.
-    coulomb_backward : float or None [N mm]
-        tau_c of motion to smaller positions; None if it is the same.
-    constant : float [N mm]
+    constant : float or None [N mm]
         Gravity, preload.
     smooth_speed : float or None [mm/s, or rad/s of a rotary axis]
         Speed over which the Coulomb torque changes its sign, `tanh(v / smooth_speed)`; None for a sharp sign.
     """
 
     axis: str
-    inertia: Inertia = 0.0
-    viscous: Damping = 0.0
-    coulomb: Torque = 0.0
-    coulomb_backward: OptionalTorque = None
-    constant: Torque = 0.0
+    inertia: OptionalInertia = None
+    viscous: OptionalDamping = None
+    coulomb: OptionalTorque = None
+    constant: OptionalTorque = None
     smooth_speed: OptionalFeed = None
 
     def __post_init__(self) -> None:
         """Refuse torques that would drive the motor."""
-        sizes = (self.inertia, self.viscous, self.coulomb, self.coulomb_backward or 0.0)
-        if any(not size >= 0 for size in sizes) or not np.isfinite([*sizes, self.constant]).all():
+        sizes = [size for size in (self.inertia, self.viscous, self.coulomb, 0.0) if size is not None]
+        if min(sizes) < 0 or not np.isfinite([*sizes, self.constant or 0.0]).all():
             raise InputError(f"the balance of axis {self.axis} has an inertia or a friction that is negative or no number")
         if self.smooth_speed is not None and not self.smooth_speed > 0:
-            raise InputError(
-                f"the balance of axis {self.axis} has the smooth speed {self.smooth_speed:g}; it must be positive"
-            )
+            raise InputError(f"the balance of axis {self.axis} has a smooth speed {self.smooth_speed:g}: not positive")
+
+
+def known_terms(known: KnownBalance, drive: FeedDrive) -> dict[str, float]:
+    """What is known, by the label of its term, against the motion of the axis.
+
+    Parameters
+    ----------
+    known : KnownBalance
+    drive : FeedDrive
+        With its transmission.
+
+    Raises
+    ------
+    InputError
+        If the transmission is not known.
+    """
+    ratio = drive.transmission_ratio
+    if ratio is None:
+        raise InputError(f"the drive of axis {drive.axis} has no pitch_mm and no pinion_radius_mm; how fast does it turn?")
+    sizes = (known.inertia, known.viscous, known.coulomb, known.constant)
+    per_motion = (1.0 / ratio, 1.0 / ratio, 1.0, 1.0)
+    return {term: size * factor for term, size, factor in zip(PLAIN, sizes, per_motion, strict=True) if size is not None}
 
 
 def known_torque_balance(known: KnownBalance, drive: FeedDrive, least_speed: float = 0.0) -> TorqueBalance:
     """The balance of a drive whose torques are known: without uncertainty, against the motion of its axis.
+
+    What is not known counts as zero.
 
     Parameters
     ----------
@@ -71,23 +89,18 @@ def known_torque_balance(known: KnownBalance, drive: FeedDrive, least_speed: flo
     InputError
         If the transmission is not known.
     """
-    ratio = drive.transmission_ratio
-    if ratio is None:
-        raise InputError(f"the drive of axis {drive.axis} has no pitch_mm and no pinion_radius_mm; how fast does it turn?")
-    model = TorqueModel(_TERMS, least_speed, known.smooth_speed)
-    backward = known.coulomb if known.coulomb_backward is None else known.coulomb_backward
+    model = TorqueModel(PLAIN, least_speed, known.smooth_speed)
     length = "rad" if drive.axis in ROTARY else "mm"
+    terms = known_terms(known, drive)
     return TorqueBalance(
         axis=drive.axis,
         model=model,
         labels=model.labels,
-        values=np.array([known.inertia / ratio, known.viscous / ratio, known.coulomb, backward, known.constant]),
+        values=np.array([terms.get(label, 0.0) for label in model.labels]),
         covariance=np.zeros((len(model.labels), len(model.labels))),
         degrees_of_freedom=np.full(len(model.labels), np.inf),
         residual_std=0.0,
-        units={
-            label: unit.format(effort="N mm", length=length) for term in model.chosen for label, unit in term.units.items()
-        },
+        units={label: unit.format(effort="N mm", length=length) for t in model.chosen for label, unit in t.units.items()},
         effort_unit="N mm",
     )
 

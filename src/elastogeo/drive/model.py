@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from elastogeo.drive.differentiator import smoothed
 from elastogeo.drive.records import DriveRecord
 from elastogeo.drive.terms import Motion, Term, term_named
 from elastogeo.errors import InputError
@@ -83,7 +84,18 @@ def motion_columns(record: DriveRecord, model: TorqueModel) -> tuple[tuple[str, 
     """Names of the parameters, and the effort per unit of each at every sample, shape (m, p) (Eq. 6.7 without the load)."""
     velocity, acceleration = record.moved(model.delay, model.neighbours)
     motion = Motion(velocity, acceleration, model.smooth_speed, model.stribeck_speed)
-    return model.labels, np.hstack([term.columns(motion) for term in model.chosen])
+    return model.labels, np.hstack([_passed(record, term, term.columns(motion)) for term in model.chosen])
+
+
+def _passed(record: DriveRecord, term: Term, columns: Array) -> Array:
+    """Columns after the low-pass of the record, shape (m, k): what jumps at a reversal is no part of the motion's own.
+
+    Inertia and viscous friction are linear in a motion that went through it already.
+    """
+    if record.cutoff is None or not term.signed:
+        return columns
+    passed = np.column_stack([smoothed(record.time, column, record.cutoff) for column in columns.T])
+    return np.where(np.isnan(passed), columns, passed)
 
 
 def usable(record: DriveRecord, model: TorqueModel) -> Mask:

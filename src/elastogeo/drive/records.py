@@ -33,6 +33,9 @@ class DriveRecord:
         the unit of the effort, is identified.
     effort_unit : str
         One of `EFFORT_UNITS`.
+    cutoff : float or None [Hz]
+        Of the low-pass that effort and motion went through (`differentiate`, `smoothed`): the friction of a reversal then
+        goes through it as well. None if they stand as recorded.
     """
 
     run: str
@@ -44,6 +47,7 @@ class DriveRecord:
     effort: Array
     disturbance: Mapping[str, Array] = field(default_factory=dict)
     effort_unit: str = "A"
+    cutoff: float | None = None
 
     def __post_init__(self) -> None:
         """Refuse a record that is none."""

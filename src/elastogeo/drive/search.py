@@ -30,6 +30,7 @@ from elastogeo.drive.balance import (
     factors_of,
     free_labels,
     identify_balance,
+    load_names,
     solved,
     usable,
 )
@@ -52,7 +53,7 @@ _LATTICE = {1: 17, 2: 9, 3: 5}
 _STARTS = 3
 """Of the best points of the lattice, from which the search goes on: there may be several valleys."""
 _HALVINGS = 5
-_PROFILE = 41
+_PROFILE = 21
 _AGAIN = 3
 """By how many halvings of the step a second search begins nearer, about a known best."""
 
@@ -197,14 +198,39 @@ def factors_cached(
 ) -> FactorsAt:
     """The factors of the runs at a point, each computed once."""
     labels = free_labels(records, ranges.model(model, ranges.low), known)
+    whole, mask = _joined(records), np.concatenate(list(masks))
+    ends = np.cumsum([mask.sum() for mask in masks])[:-1]
     cache: dict[Point, list[Factor]] = {}
 
     def factors_at(point: Point) -> list[Factor]:
         if point not in cache:
-            cache[point] = factors_of(design_rows(records, ranges.model(model, point), known, masks), labels)
+            (rows,) = design_rows([whole], ranges.model(model, point), known, [mask])
+            cache[point] = factors_of(np.split(rows, ends), labels)
         return cache[point]
 
     return factors_at
+
+
+def _joined(records: Sequence[DriveRecord]) -> DriveRecord:
+    """All records in one, with gaps between them that no motion is taken across: one pass for all their columns."""
+    times, start = [], 0.0
+    for record in records:
+        times.append(record.time - record.time[0] + start)
+        start = float(times[-1][-1]) + 100 * max(r.step for r in records)
+    loads = {
+        name: np.concatenate([record.disturbance.get(name, np.zeros(len(record.time))) for record in records])
+        for name in load_names(records)
+    }
+    return replace(
+        records[0],
+        run="all runs",
+        time=np.concatenate(times),
+        position=np.concatenate([record.position for record in records]),
+        velocity=np.concatenate([record.velocity for record in records]),
+        acceleration=np.concatenate([record.acceleration for record in records]),
+        effort=np.concatenate([record.effort for record in records]),
+        disturbance=loads,
+    )
 
 
 def lowest(factors_at: FactorsAt, ranges: Ranges, runs: Sequence[int] | None = None, start: Point | None = None) -> Point:

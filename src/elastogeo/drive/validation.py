@@ -26,6 +26,9 @@ from elastogeo.errors import RankError
 from elastogeo.estimate import confounding, merge, solve
 from elastogeo.machine import Array
 
+NOISE = 2.58
+"""Standard deviations that noise exceeds once in a hundred times."""
+
 LEAST_SAMPLES = 10
 """Of a direction, without which its mean residual says nothing."""
 
@@ -78,9 +81,11 @@ class Structure:
     Attributes
     ----------
     autocorrelation : float
-        Of neighbouring samples.
+        Of samples that are `apart`: neighbours, or, in a record that went through a low-pass, two periods of its cut-off,
+        since it makes neighbours alike.
+    apart : float [s]
     limit : float
-        That white noise exceeds once in twenty records.
+        That white noise exceeds once in a hundred records.
     forward, backward : float or None
         Mean residual by the direction of the motion [unit of the effort].
     slow, fast : float
@@ -92,6 +97,7 @@ class Structure:
     """
 
     autocorrelation: float
+    apart: float
     limit: float
     forward: float | None
     backward: float | None
@@ -180,16 +186,17 @@ def structure(fit: BalanceFit, records: Sequence[DriveRecord], masks: Sequence[M
     """What structure the residuals of a determined balance have left."""
     balance = fit.balance
     loads = dict(zip(fit.solution.labels, fit.solution.values.tolist(), strict=True)) | dict(fit.known)
-    products, squares, pairs = 0.0, 0.0, 0
+    products, squares, pairs = 0.0, 0.0, 0.0
     residuals, speeds, flips = [], [], 0
     for k, record in enumerate(records):
         mask = usable(record, fit.model) if masks is None else masks[k]
         load = sum((loads[name] * pattern for name, pattern in record.disturbance.items()), np.zeros(len(record.time)))
         residual = balance.disturbance(record) - load
-        both = mask[1:] & mask[:-1]
-        products += float(np.sum((residual[1:] * residual[:-1])[both]))
-        squares += float(np.sum((residual[1:] ** 2 + residual[:-1] ** 2)[both])) / 2
-        pairs += int(both.sum())
+        lag, independent = _lag(record)
+        both = mask[lag:] & mask[:-lag]
+        products += float(np.sum((residual[lag:] * residual[:-lag])[both]))
+        squares += float(np.sum((residual[lag:] ** 2 + residual[:-lag] ** 2)[both])) / 2
+        pairs += independent * float(both.sum())
         residuals.append(residual[mask])
         speeds.append(record.velocity[mask])
         flips += _flips(record.velocity, mask)
@@ -197,7 +204,8 @@ def structure(fit: BalanceFit, records: Sequence[DriveRecord], masks: Sequence[M
     slow = np.abs(velocity) <= np.median(np.abs(velocity))
     return Structure(
         autocorrelation=products / squares if squares > 0 else float("nan"),
-        limit=1.96 / float(np.sqrt(max(pairs, 1))),
+        apart=_lag(records[0])[0] * records[0].step,
+        limit=NOISE / float(np.sqrt(max(pairs, 1.0))),
         forward=_mean(left[velocity > 0]),
         backward=_mean(left[velocity < 0]),
         slow=_rms(left[slow]),
@@ -205,6 +213,15 @@ def structure(fit: BalanceFit, records: Sequence[DriveRecord], masks: Sequence[M
         rms=_rms(left),
         flips=flips / len(left),
     )
+
+
+def _lag(record: DriveRecord) -> tuple[int, float]:
+    """Samples between residuals that a low-pass does not tie together, and the share of samples that are independent."""
+    if record.cutoff is None:
+        return 1, 1.0
+    # The pass band, forward and backward, is that of white noise up to about 0.8 of the cut-off.
+    per_sample = record.cutoff * record.step
+    return min(int(np.ceil(2 / per_sample)), len(record.time) - 1), min(1.0, 1.6 * per_sample)
 
 
 def _flips(velocity: Array, mask: Mask) -> int:

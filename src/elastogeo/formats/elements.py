@@ -1,4 +1,4 @@
-"""XML as a small tree, read safely: no document type, no entity, and caps on size, depth, elements and tags."""
+"""XML read safely, as a small tree or event by event: no document type, no entity, caps on size, depth, elements, tags."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import io
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
 from defusedxml.ElementTree import DefusedXMLParser  # type: ignore[import-untyped,unused-ignore]
 
@@ -16,6 +16,7 @@ MAX_BYTES = 100_000_000
 MAX_DEPTH = 100
 MAX_ELEMENTS = 20_000
 MAX_TAG = 10_000
+_PIECE = 65_536
 
 _LONG_TAG = re.compile(rb"<[^<>]{%d}" % MAX_TAG)
 
@@ -47,6 +48,22 @@ class Element:
                 yield from child.walk(*without)
 
 
+class Target(Protocol):
+    """What is told of each element of a document as it is read."""
+
+    def start(self, tag: str, attributes: Mapping[str, str]) -> None:
+        """Be told that an element begins."""
+
+    def data(self, text: str) -> None:
+        """Be told a piece of text in the element that is open."""
+
+    def end(self, tag: str) -> None:
+        """Be told that the element ends."""
+
+    def close(self) -> Any:
+        """Give the result when the document has ended."""
+
+
 class _Builder:
     """What the parser builds into: a tree within the caps."""
 
@@ -61,7 +78,7 @@ class _Builder:
         if len(self.open) >= MAX_DEPTH or self.count > MAX_ELEMENTS:
             most = f"more than {MAX_DEPTH} elements inside each other" if self.count <= MAX_ELEMENTS else "too many elements"
             raise FormatError(f"{self.source}: has {most} (<{tag[:40]}>), more than any test needs; check what it is")
-        element = Element(_local(tag), {_local(name): value for name, value in attributes.items()})
+        element = Element(local(tag), {local(name): value for name, value in attributes.items()})
         if self.open:
             self.open[-1][0].children.append(element)
         else:
@@ -83,7 +100,7 @@ class _Builder:
 
 
 def read_elements(data: bytes, source: str) -> Element:
-    """Read an XML document.
+    """Read an XML document into a tree.
 
     Parameters
     ----------
@@ -101,20 +118,41 @@ def read_elements(data: bytes, source: str) -> Element:
     FormatError
         If it is no well-formed XML, has a document type or an entity, or exceeds a cap.
     """
+    root: Element = feed_elements(data, source, _Builder(source))
+    return root
+
+
+def feed_elements(data: bytes, source: str, target: Target) -> Any:
+    """Read an XML document event by event, so that it may hold more elements than a tree should; give `target.close()`.
+
+    Parameters
+    ----------
+    data : bytes
+    source : str
+        Where they came from, for messages.
+    target : Target
+        Is told of each element, with its name as the parser gives it (`{namespace}name`). It keeps its own caps on depth
+        and number of elements.
+
+    Raises
+    ------
+    FormatError
+        If it is no well-formed XML, has a document type or an entity, is too large or has a tag that is too long.
+    """
     if len(data) > MAX_BYTES:
         raise FormatError(f"{source}: is larger than {MAX_BYTES // 1_000_000} MB, which is too large for XML; split it")
     if _LONG_TAG.search(data):
         raise FormatError(f"{source}: has a tag or comment longer than {MAX_TAG} bytes; save it again")
-    parser: Any = DefusedXMLParser(target=_Builder(source), forbid_dtd=True)
+    parser: Any = DefusedXMLParser(target=target, forbid_dtd=True)
     try:
-        parser.feed(data)
-        root: Element = parser.close()
+        for start in range(0, len(data), _PIECE):
+            parser.feed(data[start : start + _PIECE])
+        return parser.close()
     except (SyntaxError, ValueError, LookupError) as error:
         reason = (str(error).splitlines() or ["no reason given"])[0][:200]
         raise FormatError(f"{source}: the XML is damaged, cut off or not allowed ({reason}); save it again") from None
-    return root
 
 
-def _local(name: str) -> str:
+def local(name: str) -> str:
     """A name without its namespace."""
     return name.rpartition("}")[2]

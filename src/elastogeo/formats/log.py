@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,7 +45,7 @@ class Channel:
             raise FormatError(f"channel {self.name!r} has {len(self.values)} samples at {len(self.time)} times")
         steps = np.diff(self.time)
         if not np.isfinite(self.time).all() or (steps <= 0).any():
-            row = int(np.argmax(~(steps > 0))) + 2
+            row = int(np.argmax(~(steps > 0))) + 2 if len(steps) else 1
             raise FormatError(
                 f"channel {self.name!r}: the time of sample {row} is not after the one before it; a log must be in the "
                 f"order of its clock"
@@ -77,3 +77,52 @@ class Log:
         """Refuse a log without a channel."""
         if not self.channels:
             raise FormatError(f"{self.source}: holds no channel of numbers; export it again with its signals")
+
+
+def in_time_order(time: Array, columns: Sequence[Array], where: str) -> tuple[NDArray[np.intp], tuple[str, ...]]:
+    """Put the samples of a file that keeps one clock in its order, and leave out those that it holds twice.
+
+    Parameters
+    ----------
+    time : array, shape (m,) [any unit]
+        Of each sample; finite.
+    columns : sequence of array, shape (m,)
+        What was recorded, to tell a sample that was written twice from two that claim one moment. NaN equals NaN.
+    where : str
+        The file and the clock, for messages.
+
+    Returns
+    -------
+    keep : array of int, shape (n,)
+        The samples to take, in the order to take them: n <= m, and `time[keep]` increases strictly.
+    notes : tuple of str
+        A sentence on each thing that was put right.
+
+    Raises
+    ------
+    FormatError
+        If two samples of one moment are not the same.
+    """
+    back = int((np.diff(time) < 0).sum())
+    keep = np.argsort(time, kind="stable") if back else np.arange(len(time))
+    again = np.flatnonzero(np.diff(time[keep]) == 0) + 1
+    notes = [f"{_times(back, 'the clock goes', 'back')}: the samples were put in its order"] if back else []
+    if not len(again):
+        return keep, tuple(notes)
+    earlier, later = keep[again - 1], keep[again]
+    same = np.ones(len(again), dtype=bool)
+    for values in columns:
+        a, b = values[earlier], values[later]
+        same &= (a == b) | (np.isnan(a) & np.isnan(b))
+    if not same.all():
+        first = int(np.argmin(same))
+        raise FormatError(
+            f"{where}: samples {earlier[first] + 1} and {later[first] + 1} are both of {time[later[first]]:.9g} and differ "
+            f"({int((~same).sum())} such pairs); export the clock with more digits, or take one of each pair out"
+        )
+    notes.append(f"{len(again)} samples stand in the file twice: taken once")
+    return np.delete(keep, again), tuple(notes)
+
+
+def _times(count: int, what: str, how: str) -> str:
+    return f"{what} {how} once" if count == 1 else f"{what} {how} {count} times"

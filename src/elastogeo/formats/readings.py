@@ -23,15 +23,49 @@ _NOT_FINITE = ("nan", "inf", "infinity", "-nan", "-inf", "-infinity", "+nan", "+
 _THOUSANDS = re.compile(r"[-+]?\d{1,3}([ .,'\u00a0\u202f_]\d{3})+([.,]\d*)?", re.ASCII)
 
 
+class DecimalMark:
+    """The decimal mark of a text, learnt from its numbers, and whether a comma has shown that it is not one for thousands.
+
+    Attributes
+    ----------
+    mark : str
+        `,` or `.`; empty until a number has shown one.
+    """
+
+    def __init__(self, said: str = "") -> None:
+        """Take what the text says of itself: `comma`, `point`, or nothing."""
+        self.mark = _MARKS.get(said.lower(), "")
+        self.sure = self.mark != ""
+        self.doubtful = ""
+
+    def allows(self, mark: str) -> bool:
+        """Whether a number with this mark (empty: with none) fits those before it."""
+        return not mark or self.mark in ("", mark)
+
+    def settle(self, mark: str, text: str) -> None:
+        """Learn from a text whose numbers have this mark."""
+        self.mark = self.mark or mark
+        if mark == "," and not self.sure:
+            self.sure = _SURELY_DECIMAL.search(text) is not None
+            if not self.doubtful and (found := re.search(r"\d{1,3},\d{3}", text)):
+                self.doubtful = found[0]
+
+    def check(self, source: str) -> None:
+        """Raise a `FormatError` if the commas may as well be marks for thousands."""
+        if self.mark == "," and not self.sure:
+            raise FormatError(
+                f"{source}: the commas, as in {_clip(self.doubtful)}, may be decimal marks or marks for "
+                "thousands; say which by a line '# decimal: comma' above the header, or write the numbers without commas"
+            )
+
+
 class Readings:
     """The numbers under a heading: parsed in blocks of lines, line by line only where something is not plain."""
 
     def __init__(self, heading: Heading, columns: list[Column]) -> None:
         self.heading, self.columns = heading, columns
         self.separator = heading.separator
-        self.mark = _MARKS.get(heading.metadata.get("decimal", "").lower(), "")
-        self.sure = self.mark != ""
-        self.doubtful = ""
+        self.decimal = DecimalMark(heading.metadata.get("decimal", ""))
         self.blocks: list[list[Array]] = [[] for _ in columns]
         self.problems: list[str] = []
         self.bad = self.rows = self.line = 0
@@ -70,7 +104,7 @@ class Readings:
             return None
         comma, point = self.separator != "," and "," in text, "." in text
         mark = "," if comma else "." if point else ""
-        if (comma and point) or (mark and self.mark not in ("", mark)):
+        if (comma and point) or not self.decimal.allows(mark):
             return None
         if comma:
             lines = text.replace(",", ".").removesuffix("\n").split("\n")
@@ -84,16 +118,8 @@ class Readings:
             return None
         if not np.isfinite(values).all():
             return None
-        self._settle(mark, text)
+        self.decimal.settle(mark, text)
         return values.reshape(-1, width)
-
-    def _settle(self, mark: str, text: str) -> None:
-        """Note the decimal mark in use, and whether a comma has shown that it is not one for thousands."""
-        self.mark = self.mark or mark
-        if mark == "," and not self.sure:
-            self.sure = _SURELY_DECIMAL.search(text) is not None
-            if not self.doubtful and (found := re.search(r"\d{1,3},\d{3}", text)):
-                self.doubtful = found[0]
 
     def _row(self, line: str, number: int) -> list[float] | None:
         """Parse one line cell by cell; None, counted and for the first five explained, if it will not do."""
@@ -113,10 +139,10 @@ class Readings:
         row = []
         for cell in map(str.strip, cells):
             mark = "," if "," in cell else "." if "." in cell else ""
-            if not NUMBER.fullmatch(cell) or (mark and self.mark not in ("", mark)):
+            if not NUMBER.fullmatch(cell) or not self.decimal.allows(mark):
                 return None
             row.append(float(cell.replace(",", ".")))
-            self._settle(mark, cell)
+            self.decimal.settle(mark, cell)
         return row if all(map(math.isfinite, row)) else None
 
     def _why(self, line: str) -> str:
@@ -147,8 +173,8 @@ class Readings:
             return f"{cell!r} is no reading; take the whole line out if the reading is missing"
         if NUMBER.fullmatch(cell):
             mark = "," if "," in cell else "." if "." in cell else ""
-            if mark and self.mark not in ("", mark):
-                return f"{_clip(cell)} has the decimal mark {mark!r}, but the file uses {self.mark!r}; use one"
+            if not self.decimal.allows(mark):
+                return f"{_clip(cell)} has the decimal mark {mark!r}, but the file uses {self.decimal.mark!r}; use one"
             finite = math.isfinite(float(cell.replace(",", ".")))
             return "" if finite else f"{_clip(cell)} is too large for a number; correct it"
         if _THOUSANDS.fullmatch(cell):
@@ -174,11 +200,7 @@ class Readings:
             raise problems_error(source, self.problems, self.bad, "lines will not do (nothing was read)")
         if not self.rows:
             raise FormatError(f"{source}: no reading follows the column header on line {self.heading.line}")
-        if self.mark == "," and not self.sure:
-            raise FormatError(
-                f"{source}: the commas, as in {_clip(self.doubtful)}, may be decimal marks or marks for "
-                "thousands; say which by a line '# decimal: comma' above the header, or write the numbers without commas"
-            )
+        self.decimal.check(source)
         metadata = dict(self.heading.metadata)
         promised = metadata.get("rows", "")
         if re.fullmatch(r"\d{1,15}", promised, re.ASCII):

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -16,11 +17,11 @@ from elastogeo.formats.documents import build, check_schema, read_document
 from elastogeo.formats.run_files import RunFormat, run_formats
 from elastogeo.formats.table import Table
 from elastogeo.formats.trial_files import ReadRun, read_test_document
-from elastogeo.formats.units import QUANTITIES, from_internal
+from elastogeo.formats.units import dimensions_of, from_internal
 from elastogeo.machine import Angle, Array
 from elastogeo.observe import Imperfection, MachineTest, Run
 
-_FILE_UNIT = {"angle": "deg", "length": "um"}
+_FILE_UNIT = {"angle": "deg", "length": "um", "time": "s", "current": "A", "force": "N"}
 _DIGITS = 9
 """Decimals that a simulated instrument writes, in the units of its file: far below anything it could resolve."""
 
@@ -44,6 +45,8 @@ class Simulation:
     exact : bool
         By exact products of transforms, or to first order.
     imperfection : Imperfection
+    setup : mapping of str to any
+        Entries of the test's table `setup` that are otherwise in truth: the friction of a drive, the length of a bar.
     """
 
     schema: str
@@ -54,6 +57,7 @@ class Simulation:
     end: Angle = 2 * np.pi
     exact: bool = True
     imperfection: Imperfection = field(default_factory=Imperfection)
+    setup: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Refuse a simulation of nothing."""
@@ -137,7 +141,7 @@ def _format_of(target: Path) -> RunFormat:
 def _content(run: Run, run_format: RunFormat, seed: int) -> bytes:
     columns = {}
     for quantity, values in run.columns.items():
-        unit = _FILE_UNIT[QUANTITIES[quantity][0]]
+        unit = "mm" if quantity.startswith("position") else _FILE_UNIT[dimensions_of(quantity)[0]]
         columns[f"{quantity}_{unit}"] = np.round(from_internal(values, unit), _DIGITS)
     if run_format.write is None:
         raise FormatError(f"the format {run_format.name} cannot be written; name the run file .csv or .parquet")

@@ -170,12 +170,17 @@ def check_unit(quantity: str, unit: str) -> None:
     FormatError
         If `quantity` (such as `force`, `force_x`, `force2`) has no unit, or one of another dimension.
     """
-    expected = next((d for name, d in QUANTITIES.items() if _is_named(quantity, name)), None)
-    if expected is None or (unit and UNITS[unit].dimension in expected):
+    expected = dimensions_of(quantity)
+    if not expected or (unit and UNITS[unit].dimension in expected):
         return
     known = " or ".join(f"{quantity}_{spelling}" for spelling in _of(expected) if spelling.isascii())
     arrived = f"has the unit {unit} ({UNITS[unit].dimension})" if unit else "has no unit"
     raise FormatError(f"column {quantity!r} {arrived}: write {known}")
+
+
+def dimensions_of(quantity: str) -> tuple[str, ...]:
+    """The dimensions that a quantity (`force`, `force_x`, `force2`) may have; none for one that may have any."""
+    return next((dimensions for name, dimensions in QUANTITIES.items() if _is_named(quantity, name)), ())
 
 
 def to_internal(values: ArrayLike, unit: str) -> Array:

@@ -20,9 +20,11 @@ from elastogeo.identify.identification import (
 )
 from elastogeo.identify.influences import Effect, effect, effects
 from elastogeo.identify.models import Comparison, ModelFit, compare_models
+from elastogeo.identify.on_axis import OnAxis, OnAxisCompliance, OnAxisPart, OnAxisRecord, where_in_the_drive
 from elastogeo.identify.physics import Consistency, Reciprocity, consistency, reciprocal_sources, reciprocity
 from elastogeo.identify.preference import moving_axes, retaining_order
 from elastogeo.identify.result import Identification, Level, Local, Parameter, Pattern, Trace
+from elastogeo.identify.stiffness import Stiffness, StiffnessMap, stiffness_map
 from elastogeo.identify.systems import RunSystem, Systems, merged, noise_of, run_systems
 from elastogeo.identify.verdict import CONDITION_LIMIT
 from elastogeo.identify.what_if import WhatIf, what_if
@@ -48,10 +50,16 @@ __all__ = [
     "Level",
     "Local",
     "ModelFit",
+    "OnAxis",
+    "OnAxisCompliance",
+    "OnAxisPart",
+    "OnAxisRecord",
     "Parameter",
     "Pattern",
     "Reciprocity",
     "RunSystem",
+    "Stiffness",
+    "StiffnessMap",
     "Systems",
     "Trace",
     "WhatIf",
@@ -81,10 +89,12 @@ __all__ = [
     "rmse",
     "run_dispersion",
     "run_systems",
+    "stiffness_map",
     "strongest_harmonic",
     "systems_of",
     "uncertainty_budget",
     "what_if",
     "what_reciprocity_buys",
+    "where_in_the_drive",
     "with_question",
 ]

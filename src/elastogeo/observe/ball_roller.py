@@ -24,6 +24,7 @@ from elastogeo.drive import (
     effort_from_force,
     identify_balance,
     joint_forces,
+    known_terms,
     known_torque_balance,
     setup_compliance,
 )
@@ -43,7 +44,7 @@ from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, check_observations
 from elastogeo.observe.rig import Rig
 from elastogeo.observe.roller_force import ContactForce, contact_force, observed_influences
-from elastogeo.observe.roller_track import Track, track_of
+from elastogeo.observe.roller_track import Track, moving, track_of
 from elastogeo.observe.trial import Respond, Run
 
 SAME_ENGAGEMENT = 1e-6
@@ -67,7 +68,7 @@ class BallRoller:
     setup : SetupCompliance
         Compliance of ball and roller together; zero leaves it in the machine's.
     balances : tuple of KnownBalance
-        What the motors need by themselves, by axis. What is not given is identified from the runs.
+        What is known of what the motors need by themselves, by axis. The rest is identified from the runs.
     rig : tuple of Rig
         Compliant parts that were put in the loop, if any: they are in the compliance that is measured.
     terms : tuple of str
@@ -78,7 +79,8 @@ class BallRoller:
         Of velocity and acceleration: far above the turns' frequency, so that nothing of the motion is lost. The current is
         not filtered, which would smear its jumps where an axis turns back.
     harmonics : int
-        Of the turn, to which the forces of the drives are smoothed; 0 for none.
+        Of the turn, to which the forces of the drives are smoothed over the samples at which they move; 0 takes each sample
+        by itself, and those only at which all drives move.
     tool : tuple of 3 float or None [mm]
         Centre of the roller in the frame of the last tool-branch carriage; None for the machine's own tool point.
     """
@@ -91,8 +93,8 @@ class BallRoller:
     rig: tuple[Rig, ...] = ()
     terms: tuple[str, ...] = ("inertia", "viscous", "coulomb", "constant")
     least_speed: Feed = 0.5
-    cutoff: Frequency = 10.0
-    harmonics: int = 8
+    cutoff: Frequency = 2.0
+    harmonics: int = 12
     tool: OptionalPoint = None
 
     def __post_init__(self) -> None:
@@ -174,8 +176,8 @@ class BallRoller:
         known = {balance.axis: balance for balance in self.balances}
         return {
             drive.axis: known_torque_balance(known[drive.axis], drive, self.least_speed)
-            if drive.axis in known
-            else self._identified(machine, drive, runs, tracks)
+            if drive.axis in known and len(known_terms(known[drive.axis], drive)) == len(self.terms)
+            else self._identified(machine, drive, known.get(drive.axis), runs, tracks)
             for drive in self.drives
         }
 
@@ -260,16 +262,17 @@ class BallRoller:
                 f"run {run.name!r} lacks {', '.join(missing)}; a ball-roller test needs time, position and current of every "
                 f"axis that presses"
             )
-        return track_of(machine, run, self.circle, self.drives, self.cutoff, self._tool)
+        track = track_of(machine, run, self.circle, self.drives, self.cutoff, self._tool)
+        return track if self.harmonics else moving(track, self.least_speed)
 
     def _identified(
-        self, machine: Machine, drive: FeedDrive, runs: Sequence[Run], tracks: dict[str, Track]
+        self, machine: Machine, drive: FeedDrive, known: KnownBalance | None, runs: Sequence[Run], tracks: dict[str, Track]
     ) -> TorqueBalance:
         """The balance of a drive from the unloaded runs; where there is none, with the loads of the others as unknowns."""
         model = TorqueModel(terms=self.terms, least_speed=self.least_speed)
         unloaded = [tracks[run.name].records[drive.axis] for run in runs if not self._engaged(run)]
         records = unloaded or [self._loaded_record(machine, drive, run, tracks[run.name]) for run in runs]
-        return identify_balance(records, model).balance
+        return identify_balance(records, model, known_terms(known, drive) if known else {}).balance
 
     def _loaded_record(self, machine: Machine, drive: FeedDrive, run: Run, track: Track) -> DriveRecord:
         """The record of a loaded run, with the direction pattern of its load (Eqs. 6.7, 6.8)."""

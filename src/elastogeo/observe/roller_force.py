@@ -134,6 +134,7 @@ def _independent(balance: TorqueBalance) -> list[tuple[float, float, Array]]:
     if not balance.covariance.any():
         return []
     scale = np.sqrt(np.diag(balance.covariance))
+    scale = np.where(scale > 0, scale, 1.0)
     values, vectors = np.linalg.eigh(balance.covariance / np.outer(scale, scale))
     freedom = float(np.min(balance.degrees_of_freedom))
     return [

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -80,7 +80,8 @@ def track_of(
         if position is None:
             continue
         moved = differentiate(time, position, cutoff)
-        commands[:, k], velocity[:, k], acceleration[:, k] = moved.position, moved.velocity, moved.acceleration
+        # The low-pass would take its part of the radius: it is for the derivatives alone.
+        commands[:, k], velocity[:, k], acceleration[:, k] = position, moved.velocity, moved.acceleration
         whole &= ~moved.edge & np.isfinite(moved.acceleration)
     if not whole.any():
         raise InputError(f"run {run.name!r} is too short for a cut-off of {cutoff:g} Hz; record at least a turn")
@@ -115,6 +116,23 @@ def track_of(
         acceleration=acceleration,
         direction=direction,
         records={drive.axis: record(drive) for drive in drives},
+    )
+
+
+def moving(track: Track, least_speed: float) -> Track:
+    """The samples of a track at which all its drives move, so that the friction of each is known [mm/s]."""
+    fast = np.all([np.abs(record.velocity) > least_speed for record in track.records.values()], axis=0)
+    if np.count_nonzero(fast) < 2:
+        raise InputError(f"run {track.run!r} has no samples at which all drives move faster than {least_speed:g} mm/s")
+    along_track = ("time", "angle", "engagement", "commands", "velocity", "acceleration", "direction")
+    of_drive = ("time", "position", "velocity", "acceleration", "effort")
+    return replace(
+        track,
+        **{name: getattr(track, name)[fast] for name in along_track},
+        records={
+            axis: replace(record, **{name: getattr(record, name)[fast] for name in of_drive})
+            for axis, record in track.records.items()
+        },
     )
 
 

@@ -195,8 +195,8 @@ def read_by(imperfection: Imperfection, true: Array, sensors: int, random: np.ra
 def planned(machine: Machine, run: Run, direction: Direction | None, *, ramp: bool) -> dict[str, Array]:
     """The columns of a run that is to be simulated: places and forces as they stand, without readings.
 
-    Where a run has no column of its force, one turn of its column `angle` is a loading cycle from zero to the run's force and
-    back, or (if it is no ramp) every angle is a reading at this force.
+    Where a run has no column of its force, one turn of its column `angle` is a loading cycle from zero to the run's force
+    and back, or (if it is no ramp) every angle is a reading at this force.
 
     Raises
     ------
@@ -208,8 +208,8 @@ def planned(machine: Machine, run: Run, direction: Direction | None, *, ramp: bo
     if "angle" in run.columns and not {"force", *COMPONENTS} & set(columns):
         if run.force is None or direction is None:
             raise InputError(
-                f"run {run.name!r} cannot be simulated: it has no force; give force_N for the whole run and a direction, or a "
-                f"column of its force"
+                f"run {run.name!r} cannot be simulated: it has no force; give force_N for the whole run and a direction, "
+                f"or a column of its force"
             )
         angle = np.asarray(run.columns["angle"])
         columns["force"] = run.force * ((1 - np.cos(angle)) / 2 if ramp else np.ones_like(angle))
