@@ -20,6 +20,7 @@ from elastogeo.report import (
     comparison_rows,
     diagnosis_rows,
     in_micrometres,
+    log_words,
     parameter_rows,
     save_figures,
     save_html,
@@ -68,15 +69,15 @@ def write_report(result: Identification, folder: Path, step: Step) -> Path:
 
 def show_identification(result: Identification) -> None:
     """Parameters, fit, verdict."""
-    _head(result)
-    _console.print(_parameters(result))
+    show_head(result)
+    show_parameters(result)
     say("")
     _console.print(_levels(result))
     say("")
     _stands_for(result.confounding)
     say("")
     for check in result.verdict:
-        _show_check(check)
+        show_check(check)
 
 
 def show_confounding(found: Confounding) -> None:
@@ -92,8 +93,8 @@ def show_confounding(found: Confounding) -> None:
 
 def show_diagnosis(diagnosis: Diagnosis, result: Identification, significant: bool) -> None:
     """The ranked faults, what was not told apart, the ISO 230-4 parameters."""
-    _head(result)
-    table = _table(("", "fault", "what", "value ± U (95 %)", "unit", "trace, p-p [um]", "share [%]"), left=(0, 1, 2, 4))
+    show_head(result)
+    table = empty_table(("", "fault", "what", "value ± U (95 %)", "unit", "trace, p-p [um]", "share [%]"), left=(0, 1, 2, 4))
     for row in diagnosis_rows(diagnosis, result):
         if row.significant == "yes" or not significant:
             table.add_row(row.rank, row.name, row.meaning, row.value, row.unit, row.distortion_um, row.share_percent)
@@ -109,26 +110,26 @@ def show_diagnosis(diagnosis: Diagnosis, result: Identification, significant: bo
         say(f"ISO 230-4 at {force:g} N: {said}")
     say("")
     for check in result.verdict:
-        _show_check(check)
+        show_check(check)
 
 
 def show_comparison(compared: BeforeAfter) -> None:
     """What changed between two tests."""
     say(f"{compared.before.test.name} -> {compared.after.test.name}")
     say("")
-    table = _table(("parameter", "before", "after", "change ± U (95 %)", "unit", "p", "changed"), left=(0, 4))
+    table = empty_table(("parameter", "before", "after", "change ± U (95 %)", "unit", "p", "changed"), left=(0, 4))
     for row in comparison_rows(compared):
         table.add_row(row.name, row.before, row.after, row.change, row.unit, row.p_value, row.changed)
     _console.print(table)
     say("")
     for check in compared.verdict:
-        _show_check(check)
+        show_check(check)
 
 
 def show_what_if(predicted: WhatIf) -> None:
     """What a correction would bring."""
     say(f"With {', '.join(predicted.corrected)} corrected, predicted:")
-    table = _table(("force [N]", "deviation", "before [um]", "after [um]", "change [%]"), left=(1,))
+    table = empty_table(("force [N]", "deviation", "before [um]", "after [um]", "change [%]"), left=(1,))
     for row in what_if_rows(predicted):
         table.add_row(row.force, row.what, row.before_um, row.after_um, row.change_percent)
     _console.print(table)
@@ -136,7 +137,7 @@ def show_what_if(predicted: WhatIf) -> None:
 
 def show_machines(machines: Mapping[str, Machine]) -> None:
     """The shipped machines, a line each."""
-    table = _table(("name", "machine", "topology", "ISO 10791-6"), left=range(4))
+    table = empty_table(("name", "machine", "topology", "ISO 10791-6"), left=range(4))
     for name, machine in machines.items():
         table.add_row(name, machine.name, machine.topology.compact, machine.topology.iso.replace("[", "\\["))
     _console.print(table)
@@ -145,7 +146,7 @@ def show_machines(machines: Mapping[str, Machine]) -> None:
 def show_machine(machine: Machine) -> None:
     """One machine in full."""
     say(f"{machine.name}  {machine.topology.compact}  {machine.topology.iso}")
-    table = _table(("axis", "branch", "kind", "offset [mm]", "travel"), left=range(5))
+    table = empty_table(("axis", "branch", "kind", "offset [mm]", "travel"), left=range(5))
     for joint in machine.joints:
         branch = "tool" if machine.in_tool_branch(joint.name) else "workpiece"
         low, high = joint.travel
@@ -159,15 +160,23 @@ def show_machine(machine: Machine) -> None:
         say(f"Assumed: {sentence}")
 
 
-def _head(result: Identification) -> None:
+def show_table(shown: Table) -> None:
+    """Print a table."""
+    _console.print(shown)
+
+
+def show_head(result: Identification) -> None:
+    """What was tested."""
     test = result.test
     say(f"{test.name}, on {test.machine.name} ({test.machine.topology.compact}), {len(test.runs)} runs")
     if test.simulated:
         say(f"Simulated data. {test.simulated}")
+    for sentence in log_words(test):
+        say(sentence)
     say("")
 
 
-def _table(headings: Sequence[str], left: Sequence[int]) -> Table:
+def empty_table(headings: Sequence[str], left: Sequence[int]) -> Table:
     """An empty table; columns not named in `left` are figures."""
     table = Table(box=None, pad_edge=False)
     for k, heading in enumerate(headings):
@@ -175,15 +184,16 @@ def _table(headings: Sequence[str], left: Sequence[int]) -> Table:
     return table
 
 
-def _parameters(result: Identification) -> Table:
-    table = _table(("parameter", "value ± U (95 %)", "unit", "trace, p-p [um]", "share [%]"), left=(0, 2))
+def show_parameters(result: Identification) -> None:
+    """The identified parameters."""
+    table = empty_table(("parameter", "value ± U (95 %)", "unit", "trace, p-p [um]", "share [%]"), left=(0, 2))
     for row in parameter_rows(result):
         table.add_row(row.name, row.value, row.unit, row.peak_to_peak_um, row.share_percent)
-    return table
+    show_table(table)
 
 
 def _levels(result: Identification) -> Table:
-    table = _table(("force [N]", "readings", "RMSE [um]", "fit [%]"), left=())
+    table = empty_table(("force [N]", "readings", "RMSE [um]", "fit [%]"), left=())
     for level in result.levels:
         table.add_row(f"{level.force:g}", str(level.readings), f"{level.rmse * 1000:.3f}", f"{level.fitness:.1f}")
     return table
@@ -195,7 +205,8 @@ def _stands_for(found: Confounding) -> None:
             say(f"{name} stands for {combination(found.stands_for(name))}")
 
 
-def _show_check(check: Check) -> None:
+def show_check(check: Check) -> None:
+    """One point of a verdict."""
     mark, style = ("ok", "green") if check.passed else ("look", "yellow")
     _console.print(f"[{style}]{mark:>4}[/{style}]  ", end="")
     say(f"{check.name}: {check.sentence}")

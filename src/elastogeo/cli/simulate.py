@@ -29,7 +29,7 @@ def simulate(
 
     truth = read_simulation(simulation)
     with screen.progress("simulating", quiet=as_json) as step:
-        planned = read_test(test, poses_of(truth))
+        planned = read_test(test, poses_of(truth), truth.setup)
         result = simulated(planned, truth.values, truth.imperfection, truth.seed, truth.exact)
         step("writing the runs")
         written = write_runs(test, result, truth.seed)

@@ -176,4 +176,5 @@ def _run(document: RunDocument, table: Table) -> Run:
         engagement=document.engagement,
         sense=_SENSES[sense],
         repeat=document.repeat,
+        notes=tuple(table.metadata.get("clock", "").splitlines()),
     )

@@ -34,6 +34,8 @@ class Run:
         +1 counter-clockwise, -1 clockwise.
     repeat : int
         Counts the runs of one level, from 1.
+    notes : tuple of str
+        What was done to its recording before it became columns: sentences for the reader of the result.
     """
 
     name: str
@@ -43,6 +45,7 @@ class Run:
     engagement: OptionalLength = None
     sense: int = 1
     repeat: int = 1
+    notes: tuple[str, ...] = ()
 
 
 Respond = Callable[[Observations], Array]

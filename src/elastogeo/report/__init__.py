@@ -10,12 +10,14 @@ from elastogeo.report.as_json import (
     DIAGNOSIS_SCHEMA,
     IDENTIFICATION_SCHEMA,
     MACHINE_SCHEMA,
+    STIFFNESS_SCHEMA,
     WHAT_IF_SCHEMA,
     comparison_json,
     confounding_json,
     diagnosis_json,
     identification_json,
     machine_json,
+    stiffness_json,
     what_if_json,
 )
 from elastogeo.report.extra import MissingExtraError
@@ -32,7 +34,17 @@ from elastogeo.report.findings import (
 from elastogeo.report.html import html_report, save_html
 from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
 from elastogeo.report.pdf import pdf_report, save_pdf
+from elastogeo.report.stiffness import (
+    BalanceRow,
+    StiffnessRow,
+    balance_rows,
+    level_names,
+    save_stiffness,
+    stiffness_figure,
+    stiffness_rows,
+)
 from elastogeo.report.text import ParameterRow, combination, display_units, in_micrometres, parameter_rows
+from elastogeo.report.words import log_words
 
 __all__ = [
     "COMPARISON_SCHEMA",
@@ -41,13 +53,17 @@ __all__ = [
     "FORMATS",
     "IDENTIFICATION_SCHEMA",
     "MACHINE_SCHEMA",
+    "STIFFNESS_SCHEMA",
     "WHAT_IF_SCHEMA",
+    "BalanceRow",
     "ComparisonRow",
     "DiagnosisRow",
     "DisplayUnit",
     "MissingExtraError",
     "ParameterRow",
+    "StiffnessRow",
     "WhatIfRow",
+    "balance_rows",
     "combination",
     "comparison_json",
     "comparison_rows",
@@ -61,13 +77,19 @@ __all__ = [
     "html_report",
     "identification_json",
     "in_micrometres",
+    "level_names",
+    "log_words",
     "machine_json",
     "parameter_rows",
     "pdf_report",
     "save_figures",
     "save_html",
     "save_pdf",
+    "save_stiffness",
     "significant",
+    "stiffness_figure",
+    "stiffness_json",
+    "stiffness_rows",
     "value_with_uncertainty",
     "what_if_json",
     "what_if_rows",

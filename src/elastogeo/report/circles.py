@@ -108,7 +108,7 @@ def division_bar(ax: Axes, scale: Scale, to_scale: bool) -> None:
 
 def is_angular(result: Identification) -> bool:
     """Whether the readings go around a circle."""
-    return result.test.setup.quantities[0] == "angle"
+    return result.test.setup.pose_quantity == "angle"
 
 
 def nominal_radius(result: Identification) -> float | None:
@@ -119,4 +119,4 @@ def nominal_radius(result: Identification) -> float | None:
 
 def pose_axis(result: Identification) -> tuple[str, float]:
     """Label of what the readings count along, and the factor to its shown unit."""
-    return ("angle (°)", 180 / np.pi) if is_angular(result) else (result.test.setup.quantities[0], 1.0)
+    return ("angle (°)", 180 / np.pi) if is_angular(result) else (result.test.setup.pose_quantity, 1.0)

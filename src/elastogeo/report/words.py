@@ -161,9 +161,21 @@ def structure_words(result: Identification) -> list[str]:
 
 
 def assumptions(test: MachineTest) -> list[str]:
-    """What of the machine is assumed, in one sentence, or nothing."""
+    """What of the machine is assumed, in one sentence, and what was done to the logs of the runs; or nothing."""
     assumed = "; ".join(text.rstrip(".") for text in test.machine.assumed)
-    return [f"Assumed, not measured, of the machine: {assumed}."] if assumed else []
+    return [*([f"Assumed, not measured, of the machine: {assumed}."] if assumed else []), *log_words(test)]
+
+
+def log_words(test: MachineTest) -> list[str]:
+    """What was done to the logs before they became runs: each sentence once, with the runs that it holds for."""
+    runs: dict[str, list[str]] = {}
+    for run in test.runs:
+        for note in run.notes:
+            runs.setdefault(note, []).append(run.name)
+    return [
+        f"Log of {'every run' if len(names) == len(test.runs) else listed(names)}: {note.rstrip('.')}."
+        for note, names in runs.items()
+    ]
 
 
 def repeats_words(result: Identification) -> list[str]:

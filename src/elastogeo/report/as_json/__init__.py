@@ -9,6 +9,7 @@ from elastogeo.report.as_json.confounding import CONFOUNDING_SCHEMA, confounding
 from elastogeo.report.as_json.diagnosis import DIAGNOSIS_SCHEMA, diagnosis_json
 from elastogeo.report.as_json.identification import IDENTIFICATION_SCHEMA, identification_json
 from elastogeo.report.as_json.machine import MACHINE_SCHEMA, machine_json
+from elastogeo.report.as_json.stiffness import STIFFNESS_SCHEMA, stiffness_json
 from elastogeo.report.as_json.what_if import WHAT_IF_SCHEMA, what_if_json
 
 __all__ = [
@@ -17,11 +18,13 @@ __all__ = [
     "DIAGNOSIS_SCHEMA",
     "IDENTIFICATION_SCHEMA",
     "MACHINE_SCHEMA",
+    "STIFFNESS_SCHEMA",
     "WHAT_IF_SCHEMA",
     "comparison_json",
     "confounding_json",
     "diagnosis_json",
     "identification_json",
     "machine_json",
+    "stiffness_json",
     "what_if_json",
 ]

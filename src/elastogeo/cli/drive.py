@@ -1,0 +1,56 @@
+"""`elastogeo drive`: from the logs of a control to the torque balance of each feed drive."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from elastogeo.cli.options import AsJson, refuse_if
+
+
+def drive(
+    logs: Annotated[
+        list[Path], typer.Argument(metavar="LOG...", help="A drive file or its folder, or logs with units in their headers.")
+    ],
+    axis: Annotated[list[str] | None, typer.Option("--axis", help="Axis to identify; may be repeated.")] = None,
+    held_out: Annotated[
+        list[str] | None, typer.Option("--held-out", help="Run that is predicted only; may be repeated.")
+    ] = None,
+    compare: Annotated[bool, typer.Option(help="Compare richer models on left-out runs.")] = True,
+    report: Annotated[Path | None, typer.Option(help="Folder to write the figures to.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Identify the torque balance of feed drives: inertia, friction, constant, loads.
+
+    A log names its channels current_x, position_x (velocity_x, acceleration_x) with their units; a drive file says it for
+    logs that do not. Every run is predicted from all others, and models of the friction are compared by that.
+
+    \b
+    Example:
+      elastogeo drive run_1.csv run_2.csv run_3.csv
+    """
+    from dataclasses import replace
+
+    from elastogeo.cli import screen
+    from elastogeo.cli.drive_screen import show_drives
+    from elastogeo.formats.drive_files import read_drives
+    from elastogeo.identify.drives import identify_drives
+    from elastogeo.report.as_json.drive import drive_json
+    from elastogeo.report.drive_figures import save_drive_figures
+
+    with screen.progress("reading the logs", quiet=as_json) as step:
+        test = read_drives(logs, tuple(axis or ()), tuple(held_out or ()))
+        step("identifying the drives")
+        result = identify_drives(test if compare else replace(test, compare=False))
+        if report:
+            step("drawing the figures")
+            save_drive_figures(result, report)
+    if as_json:
+        screen.show_json(drive_json(result))
+    else:
+        show_drives(result)
+        if report:
+            screen.say(f"Figures: {report}")
+    refuse_if(result.verdict)

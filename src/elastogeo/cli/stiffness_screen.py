@@ -1,0 +1,28 @@
+"""What a person sees of a stiffness map at the terminal. Nothing is computed here."""
+
+from __future__ import annotations
+
+from elastogeo.cli import screen
+from elastogeo.identify import StiffnessMap
+from elastogeo.report import balance_rows, level_names, stiffness_rows
+
+
+def show_stiffness(found: StiffnessMap) -> None:
+    """The drives, the map, the joints, the verdict."""
+    screen.show_head(found.joints)
+    drives = screen.empty_table(("axis", "motor", "value ± U (95 %)", "unit"), left=(0, 1, 3))
+    for balance in balance_rows(found):
+        drives.add_row(balance.axis, balance.parameter, balance.value, balance.unit)
+    screen.show_table(drives)
+    screen.say("")
+    levels = level_names(found)
+    headings = ("direction [deg]", "compliance ± U [um/N]", "stiffness [N/um]", "95 %")
+    by_direction = screen.empty_table((*headings, *(f"{name} [N/um]" for name in levels)), left=())
+    for row in stiffness_rows(found):
+        by_direction.add_row(row.direction, row.compliance, row.stiffness, row.stiffness_interval, *row.by_level)
+    screen.show_table(by_direction)
+    screen.say("")
+    screen.show_parameters(found.joints)
+    screen.say("")
+    for check in found.verdict:
+        screen.show_check(check)

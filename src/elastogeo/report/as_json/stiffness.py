@@ -1,0 +1,100 @@
+"""`elastogeo.stiffness/1`: the stiffness map of a ball-roller test.
+
+test, verdict : as in `envelope`
+overall : {force_N: null, directions}
+levels : [{force_N, directions}], from the least level to each other
+    directions : [{angle_deg, compliance_um_per_N, standard_uncertainty_um_per_N, interval95_um_per_N, stiffness_N_per_um,
+    stiffness_interval95_N_per_um}]; null for a bound that no data give
+balances : [{axis, parameter, value, standard_uncertainty, degrees_of_freedom, unit}], of the drives, at the motor's shaft
+dynamometer : {gain, gain_interval95, offset_N, offset_interval95_N, rms_difference_N, maximum_difference_N, delays_s,
+    agrees}, or null
+rig : [{angle_deg, difference_um_per_N, expanded_uncertainty_um_per_N, normalised_error, agrees}], or null
+joints : `elastogeo.identification/1`, of what the test's own question asks for
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from elastogeo.drive import ForceAgreement, RigCheck, motor_parameters
+from elastogeo.identify import Stiffness, StiffnessMap
+from elastogeo.observe import BallRoller
+from elastogeo.report.as_json.envelope import UM, document, tested, verdict_entries
+from elastogeo.report.as_json.identification import identification_json
+
+STIFFNESS_SCHEMA = "elastogeo.stiffness/1"
+
+
+def stiffness_json(found: StiffnessMap) -> dict[str, Any]:
+    """A stiffness map as one JSON object (`elastogeo.stiffness/1`)."""
+    setup = found.joints.test.setup
+    drives = {drive.axis: drive for drive in setup.drives} if isinstance(setup, BallRoller) else {}
+    return document(
+        STIFFNESS_SCHEMA,
+        {
+            "test": tested(found.joints.test, found.joints.reference_force),
+            "overall": _stiffness(found.overall),
+            "levels": [_stiffness(level) for level in found.levels],
+            "balances": [
+                {
+                    "axis": axis,
+                    "parameter": parameter.label,
+                    "value": parameter.value,
+                    "standard_uncertainty": parameter.standard_uncertainty,
+                    "degrees_of_freedom": parameter.degrees_of_freedom,
+                    "unit": parameter.unit,
+                }
+                for axis, balance in found.balances.items()
+                for parameter in motor_parameters(balance, drives[axis])
+            ],
+            "dynamometer": None if found.dynamometer is None else _dynamometer(found.dynamometer),
+            "rig": None if found.rig is None else _rig(found.rig, found.overall),
+            "joints": identification_json(found.joints),
+            "verdict": verdict_entries(found.verdict),
+        },
+    )
+
+
+def _stiffness(found: Stiffness) -> dict[str, Any]:
+    return {
+        "force_N": found.force,
+        "directions": [
+            {
+                "angle_deg": float(np.rad2deg(found.angle[k])),
+                "compliance_um_per_N": found.compliance[k] * UM,
+                "standard_uncertainty_um_per_N": found.standard_uncertainty[k] * UM,
+                "interval95_um_per_N": found.interval[k] * UM,
+                "stiffness_N_per_um": found.stiffness[k] / UM,
+                "stiffness_interval95_N_per_um": found.stiffness_interval[k] / UM,
+            }
+            for k in range(len(found.angle))
+        ],
+    }
+
+
+def _dynamometer(found: ForceAgreement) -> dict[str, Any]:
+    return {
+        "gain": found.gain,
+        "gain_interval95": found.gain_interval,
+        "offset_N": found.offset,
+        "offset_interval95_N": found.offset_interval,
+        "rms_difference_N": found.rms_difference,
+        "maximum_difference_N": found.maximum_difference,
+        "delays_s": [delay.seconds for delay in found.delays],
+        "agrees": found.agrees,
+    }
+
+
+def _rig(found: RigCheck, overall: Stiffness) -> list[dict[str, Any]]:
+    return [
+        {
+            "angle_deg": float(np.rad2deg(angle)),
+            "difference_um_per_N": found.difference[k] * UM,
+            "expanded_uncertainty_um_per_N": found.expanded_uncertainty[k] * UM,
+            "normalised_error": found.normalised_error[k],
+            "agrees": bool(found.agrees[k]),
+        }
+        for k, angle in enumerate(overall.angle)
+    ]

@@ -1,0 +1,147 @@
+"""A stiffness map in words and figures: rows for every reader, and the polar figure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from elastogeo.drive import motor_parameters
+from elastogeo.estimate import coverage_factor
+from elastogeo.identify import Stiffness, StiffnessMap
+from elastogeo.observe import BallRoller
+from elastogeo.report.extra import needs_report_extra
+from elastogeo.report.figures import figure_bytes
+from elastogeo.report.numbers import significant, value_with_uncertainty
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+UM = 1000.0
+"""Micrometres in a millimetre; N/um are thousands of N/mm."""
+
+
+@dataclass(frozen=True, slots=True)
+class StiffnessRow:
+    """One direction, formatted.
+
+    Attributes
+    ----------
+    direction : str
+        In degrees.
+    compliance : str
+        `value ± U` in um/N.
+    stiffness, stiffness_interval : str
+        In N/um.
+    by_level : tuple of str
+        Stiffness [N/um] from the least level to each other.
+    """
+
+    direction: str
+    compliance: str
+    stiffness: str
+    stiffness_interval: str
+    by_level: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class BalanceRow:
+    """One parameter of a drive's torque balance, formatted."""
+
+    axis: str
+    parameter: str
+    value: str
+    unit: str
+
+
+def stiffness_rows(found: StiffnessMap) -> tuple[StiffnessRow, ...]:
+    """The map, a row a direction."""
+    overall = found.overall
+    half = (overall.interval[:, 1] - overall.interval[:, 0]) / 2
+    rows = []
+    for k, angle in enumerate(overall.angle):
+        low, high = overall.stiffness_interval[k]
+        rows.append(
+            StiffnessRow(
+                direction=f"{np.rad2deg(angle):.0f}",
+                compliance=value_with_uncertainty(overall.compliance[k] * UM, half[k] * UM),
+                stiffness=_stiffness(overall.stiffness[k]),
+                stiffness_interval=f"{_stiffness(low)} to {_stiffness(high)}",
+                by_level=tuple(_stiffness(level.stiffness[k]) for level in found.levels),
+            )
+        )
+    return tuple(rows)
+
+
+def balance_rows(found: StiffnessMap) -> tuple[BalanceRow, ...]:
+    """The torque balances of the drives, as their motors feel them."""
+    setup = found.joints.test.setup
+    drives = {drive.axis: drive for drive in setup.drives} if isinstance(setup, BallRoller) else {}
+    rows = []
+    for axis, balance in found.balances.items():
+        for parameter in motor_parameters(balance, drives[axis]):
+            freedom = np.array([max(parameter.degrees_of_freedom, 1.0)])
+            half = float(coverage_factor(freedom)[0]) * parameter.standard_uncertainty
+            shown = value_with_uncertainty(parameter.value, half) if half else f"{parameter.value:g} (given)"
+            rows.append(BalanceRow(axis, parameter.label, shown, parameter.unit))
+    return tuple(rows)
+
+
+def stiffness_figure(found: StiffnessMap) -> Figure:
+    """Stiffness by direction: all levels with their interval, and each level from the least one on.
+
+    Raises
+    ------
+    MissingExtraError
+        If matplotlib is not installed.
+    """
+    with needs_report_extra():
+        from elastogeo.report.style import BLUE, force_colours, house_style, new_figure
+    with house_style():
+        figure = new_figure(5.2)
+        ax = figure.add_subplot(projection="polar")
+        low, high = (_closed(bound) / UM for bound in found.overall.stiffness_interval.T)
+        around = _closed(found.overall.angle, turn=2 * np.pi)
+        ax.fill_between(around, low, np.where(np.isfinite(high), high, low), color=BLUE, alpha=0.15, linewidth=0)
+        ax.plot(around, _closed(found.overall.stiffness) / UM, color=BLUE, label="all levels, with interval (95 %)")
+        colours = force_colours([level.force or 0.0 for level in found.levels])
+        for level in found.levels:
+            ax.plot(
+                around, _closed(level.stiffness) / UM, color=colours[level.force or 0.0], linewidth=0.8, label=_named(level)
+            )
+        ax.set_ylim(0.0, 1.15 * float(np.max(found.overall.stiffness[np.isfinite(found.overall.stiffness)])) / UM)
+        ax.set_title("volumetric stiffness (N/µm)" + (", simulated" if found.joints.test.simulated else ""))
+        figure.legend(loc="outside right upper")
+    return figure
+
+
+def save_stiffness(found: StiffnessMap, folder: str | Path) -> Path:
+    """Save the polar figure as `stiffness.svg` in a folder, which is made if it is not there; return its path."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / "stiffness.svg"
+    path.write_bytes(figure_bytes(stiffness_figure(found), "svg"))
+    return path
+
+
+def level_names(found: StiffnessMap) -> tuple[str, ...]:
+    """What each level of the map is called."""
+    return tuple(_named(level) for level in found.levels)
+
+
+def _named(level: Stiffness) -> str:
+    return f"to {level.force:.0f} N" if level.force is not None else "all levels"
+
+
+def _closed(
+    values: np.ndarray[tuple[int], np.dtype[np.float64]], turn: float = 0.0
+) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    """The values with the first once more at their end."""
+    return np.append(values, values[0] + turn)
+
+
+def _stiffness(value: float) -> str:
+    return "∞" if value == inf else significant(value / UM, 3)
