@@ -13,7 +13,7 @@ def main(example: Path, folder: Path) -> int:
     for path in example.glob("*.toml"):
         shutil.copy(path, folder)
     truth = read_simulation(folder / "simulation.toml")
-    planned = read_test(folder, poses_of(truth))
+    planned = read_test(folder, poses_of(truth), truth.setup)
     test = simulate(planned, truth.values, truth.imperfection, truth.seed, truth.exact)
     written = write_runs(folder, test, truth.seed)
     there = [example / path.relative_to(folder) for path in written]

@@ -11,6 +11,9 @@ import pytest
 
 from elastogeo.machine import Array, Joint, Machine, parse_topology
 from elastogeo.observe import Circle, LoadedBallBar, MachineTest, Question, Run, Setup, instruments
+from elastogeo.observe.probes import DisplacementProbes
+from elastogeo.observe.sensor_frame import Sensor, SensorFrame
+from elastogeo.observe.static_force import StaticForce
 
 TILTED = ((1.0, 1.0, 0.0), (1.0, -1.0, 3.0))
 
@@ -84,7 +87,29 @@ def loaded_ball_bar(arrangement: Arrangement) -> Setup:
     return LoadedBallBar(arrangement.circle, feed=2000 / 60)
 
 
-SETUPS: dict[str, Callable[[Arrangement], Setup]] = {"loaded-ball-bar": loaded_ball_bar}
+def static_force(arrangement: Arrangement) -> Setup:
+    return StaticForce(None, (1.0, 1.0, -2.0), arrangement.centre, (30.0, -20.0, 10.0), in_workpiece=True)
+
+
+def displacement_probes(arrangement: Arrangement) -> Setup:
+    return DisplacementProbes(
+        ((1.0, 0.2, 0.0), (0.0, 1.0, 0.3), (0.4, 0.0, 1.0)), (1.0, 1.0, 1.0), arrangement.centre, arrangement.rotary_turn
+    )
+
+
+def sensor_frame(arrangement: Arrangement) -> Setup:
+    points = np.random.default_rng(12).uniform(-80, 80, (12, 3))
+    directions = np.random.default_rng(13).standard_normal((12, 3))
+    sensors = tuple(Sensor(tuple(p), tuple(n)) for p, n in zip(points, directions, strict=True))
+    return SensorFrame(sensors, (1.0, -2.0, 1.0), arrangement.centre, (15.0, -10.0, -40.0), in_workpiece=True)
+
+
+SETUPS: dict[str, Callable[[Arrangement], Setup]] = {
+    "loaded-ball-bar": loaded_ball_bar,
+    "displacement-probes": displacement_probes,
+    "sensor-frame": sensor_frame,
+    "static-force": static_force,
+}
 """How each instrument is set up in an arrangement. A new instrument adds its line here and is held to the contract."""
 
 
@@ -110,16 +135,23 @@ class Case:
         setup = SETUPS[self.instrument](self.arrangement)
         angle = np.arange(readings) * 2 * np.pi / readings
         runs = tuple(
-            Run(f"{force:g} N, {k}", blank(setup, angle), force=force, repeat=k)
+            Run(f"{force:g} N, {k}", blank(setup, angle, force), force=force, repeat=k)
             for force in forces
             for k in range(1, repeats + 1)
         )
         return MachineTest(str(self), self.arrangement.machine, setup, runs, Question(tuple(parameters), reference))
 
 
-def blank(setup: Setup, pose: Array) -> dict[str, Array]:
-    pose_column, reading = setup.quantities
-    return {pose_column: pose, reading: np.zeros(len(pose))}
+def blank(setup: Setup, pose: Array, force: float) -> dict[str, Array]:
+    """Columns of a run to simulate: zeros, at these poses, under a force that turns if it is recorded by components."""
+    columns = {quantity: np.zeros(len(pose)) for quantity in setup.quantities if quantity != "force"}
+    if "force_x" in columns:
+        columns |= {
+            "force_x": force * np.cos(pose),
+            "force_y": force * np.sin(pose),
+            "force_z": force * np.cos(2 * pose) / 2,
+        }
+    return {**columns, "angle": pose}
 
 
 CASES = tuple(Case(name, arrangement) for name, arrangement in product(instruments(), ARRANGEMENTS) if name in SETUPS)

@@ -64,7 +64,7 @@ def test_models_that_are_none_are_refused() -> None:
         TorqueModel(("coulomb", "stribeck"))
     with pytest.raises(InputError, match="the delay of the effort is nan s"):
         TorqueModel(delay=float("nan"))
-    with pytest.raises(InputError, match="the share of the neighbours is 0.6"):
+    with pytest.raises(InputError, match=r"the share of the neighbours is 0.6"):
         TorqueModel(neighbours=0.6)
     with pytest.raises(InputError, match="the term stribeck needs a stribeck_speed"):
         columns("stribeck", Motion(VELOCITY, VELOCITY))

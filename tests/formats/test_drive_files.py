@@ -207,3 +207,11 @@ def test_logs_that_hold_no_drive_are_refused(tmp_path: Path) -> None:
     (tmp_path / "wrong.toml").write_text('schema = "elastogeo.test/1"\n', encoding="utf-8")
     with pytest.raises(FormatError, match=r'begin the file with schema = "elastogeo\.drive/1"'):
         read_drives([tmp_path / "wrong.toml"])
+
+
+def test_the_sense_of_a_motor_counts_without_its_constant_too(tmp_path: Path) -> None:
+    log(tmp_path / "a.csv", "position", "velocity", "acceleration")
+    plain = read_drives([tmp_path / "a.csv"]).records[0]
+    (turned,) = read_drives([drive_file(tmp_path, 'logs = ["a.csv"]\n[[drives]]\naxis = "X"\nsense = -1\n')]).records
+    assert turned.effort_unit == "A"
+    assert_allclose(turned.effort, -plain.effort)

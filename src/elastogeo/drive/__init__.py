@@ -20,6 +20,7 @@ from elastogeo.drive.known_balance import (
 )
 from elastogeo.drive.model import TorqueModel, motion_columns
 from elastogeo.drive.records import DriveRecord
+from elastogeo.drive.search import search_balance
 from elastogeo.drive.series import (
     RigCheck,
     SetupCompliance,
@@ -45,6 +46,8 @@ from elastogeo.drive.servo import (
     servo_stiffness,
     static_stiffness,
 )
+from elastogeo.drive.trial import DriveTest
+from elastogeo.drive.validation import leave_one_run_out, predict, structure
 from elastogeo.drive.virtual_work import joint_forces, tool_force
 
 __all__ = [
@@ -53,6 +56,7 @@ __all__ = [
     "Delay",
     "Derivatives",
     "DriveRecord",
+    "DriveTest",
     "FeedDrive",
     "ForceAgreement",
     "ForceRecord",
@@ -84,17 +88,21 @@ __all__ = [
     "joint_forces",
     "known_terms",
     "known_torque_balance",
+    "leave_one_run_out",
     "machine_compliance",
     "machine_compliance_uncertainty",
     "motion_columns",
     "motor_parameters",
     "poles",
+    "predict",
     "rig_check",
+    "search_balance",
     "servo_stiffness",
     "setup_compliance",
     "smoothed",
     "static_stiffness",
     "stiffness_from_compliance",
+    "structure",
     "tool_force",
     "with_rig",
 ]

@@ -4,6 +4,7 @@ Stands on `sources`, `observe`, `machine` and `errors`.
 """
 
 from elastogeo.formats.channels import ChannelUse, Clock, OnOneClock, on_one_clock
+from elastogeo.formats.drive_files import read_drives
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, log_formats, read_log
 from elastogeo.formats.machine_files import find_machine, read_machine, shipped_machines
@@ -29,6 +30,7 @@ __all__ = [
     "log_formats",
     "on_one_clock",
     "poses_of",
+    "read_drives",
     "read_log",
     "read_machine",
     "read_run",

@@ -1,12 +1,22 @@
 """From a test to a design matrix to parameters, with a verdict. Stands on all rooms below; knows no file, no figure."""
 
 from elastogeo.identify.budget import Agreement, Budget, BudgetLine, agreement, uncertainty_budget
+from elastogeo.identify.cartesian_stiffness import (
+    CartesianCompliance,
+    Principal,
+    Symmetry,
+    cartesian_compliance,
+    cartesian_from_vectors,
+    cartesian_of,
+)
 from elastogeo.identify.change import SIGNIFICANT, Change, difference, local_change, run_dispersion
 from elastogeo.identify.check import Check
 from elastogeo.identify.circularity import Circularity, circularity
 from elastogeo.identify.comparison import BeforeAfter, Difference, compare_tests
 from elastogeo.identify.diagnosis import Diagnosis, Fault, diagnose
+from elastogeo.identify.drives import AxisDrive, DriveIdentification, identify_drives
 from elastogeo.identify.fit import Harmonic, fitness, rmse, strongest_harmonic
+from elastogeo.identify.hysteresis import StaticHysteresis, hysteresis
 from elastogeo.identify.identification import (
     adjacent,
     confounding_of,
@@ -19,11 +29,13 @@ from elastogeo.identify.identification import (
     with_question,
 )
 from elastogeo.identify.influences import Effect, effect, effects
+from elastogeo.identify.loading_branches import Branch, branches_of, turning_points
 from elastogeo.identify.models import Comparison, ModelFit, compare_models
 from elastogeo.identify.on_axis import OnAxis, OnAxisCompliance, OnAxisPart, OnAxisRecord, where_in_the_drive
 from elastogeo.identify.physics import Consistency, Reciprocity, consistency, reciprocal_sources, reciprocity
 from elastogeo.identify.preference import moving_axes, retaining_order
 from elastogeo.identify.result import Identification, Level, Local, Parameter, Pattern, Trace
+from elastogeo.identify.static_line import Estimate, StaticLine, static_line
 from elastogeo.identify.stiffness import Stiffness, StiffnessMap, stiffness_map
 from elastogeo.identify.systems import RunSystem, Systems, merged, noise_of, run_systems
 from elastogeo.identify.verdict import CONDITION_LIMIT
@@ -33,9 +45,12 @@ __all__ = [
     "CONDITION_LIMIT",
     "SIGNIFICANT",
     "Agreement",
+    "AxisDrive",
     "BeforeAfter",
+    "Branch",
     "Budget",
     "BudgetLine",
+    "CartesianCompliance",
     "Change",
     "Check",
     "Circularity",
@@ -43,7 +58,9 @@ __all__ = [
     "Consistency",
     "Diagnosis",
     "Difference",
+    "DriveIdentification",
     "Effect",
+    "Estimate",
     "Fault",
     "Harmonic",
     "Identification",
@@ -56,15 +73,23 @@ __all__ = [
     "OnAxisRecord",
     "Parameter",
     "Pattern",
+    "Principal",
     "Reciprocity",
     "RunSystem",
+    "StaticHysteresis",
+    "StaticLine",
     "Stiffness",
     "StiffnessMap",
+    "Symmetry",
     "Systems",
     "Trace",
     "WhatIf",
     "adjacent",
     "agreement",
+    "branches_of",
+    "cartesian_compliance",
+    "cartesian_from_vectors",
+    "cartesian_of",
     "circularity",
     "compare_models",
     "compare_tests",
@@ -77,7 +102,9 @@ __all__ = [
     "effects",
     "effects_of",
     "fitness",
+    "hysteresis",
     "identify",
+    "identify_drives",
     "local_change",
     "local_estimates",
     "merged",
@@ -89,9 +116,11 @@ __all__ = [
     "rmse",
     "run_dispersion",
     "run_systems",
+    "static_line",
     "stiffness_map",
     "strongest_harmonic",
     "systems_of",
+    "turning_points",
     "uncertainty_budget",
     "what_if",
     "what_reciprocity_buys",

@@ -115,14 +115,15 @@ def _assessed(result: Identification, systems: Systems) -> Identification:
     physics = None
     if elastic:
         result, physics = _held_against_physics(result)
-    harmonics = {t.run: strongest_harmonic(t.measured - t.predicted, t.pose, len(result.traces)) for t in result.traces}
+    around = result.traces if result.test.setup.pose_quantity == "angle" else ()
+    harmonics = {t.run: strongest_harmonic(t.measured - t.predicted, t.pose, len(around)) for t in around}
     both = len({source.elastic for source in systems.sources}) == 2
     verdict = (
         identifiable(result.confounding),
         forces_distinct(systems.applied) if any(source.elastic for source in systems.sources) else None,
         separated(parameters) if both else None,
         conditioned(result.confounding),
-        residuals_unstructured(harmonics, result.rmse, result.by_run),
+        residuals_unstructured(harmonics, result.rmse, result.by_run) if around else None,
         uncertainty_by_run(result.by_run, len(systems.runs), bool(systems.references)),
         drawn,
         outliers([run.weights for run in systems.runs if run.weights is not None]) if result.test.question.robust else None,
@@ -221,7 +222,7 @@ def confounding_of(test: MachineTest, systems: Systems) -> Confounding:
     """What the test can and cannot tell apart of what its question asks for."""
     observations = [run.observations for run in systems.runs]
     order = retaining_order(systems.sources, test.machine, observations, test.question.prefer)
-    return confounding(merged(systems.runs), order, systems.ceilings)
+    return confounding(merged(systems.runs), order, systems.ceilings, max(run.collinear for run in observations))
 
 
 def consistency_of(identification: Identification, draws: int = 0, seed: int = 0) -> Consistency:
@@ -383,7 +384,7 @@ def _span_of(run: RunSystem, solution: Solution, sources: Sequence[Source]) -> t
 
 def _parameters(systems: Systems, found: Confounding, solution: Solution, budget: Budget) -> tuple[Parameter, ...]:
     by_name = {source.name: source for source in systems.sources}
-    spans = np.ptp(_strongest(systems).design_of(solution.labels), axis=0) * solution.values
+    spans = _spans(systems, solution.labels) * solution.values
     total = float(np.abs(spans).sum()) or 1.0
     return tuple(
         Parameter(
@@ -402,6 +403,12 @@ def _parameters(systems: Systems, found: Confounding, solution: Solution, budget
         )
         for k, name in enumerate(solution.labels)
     )
+
+
+def _spans(systems: Systems, labels: Sequence[str]) -> Array:
+    """Span of the columns over the strongest run; over all runs where a run has one force at one place."""
+    within = np.ptp(_strongest(systems).design_of(labels), axis=0)
+    return np.where(within > 0, within, np.ptp(np.vstack([run.design_of(labels) for run in systems.runs]), axis=0))
 
 
 def _repeats(systems: Systems, retained: Sequence[str]) -> Repeatability | None:

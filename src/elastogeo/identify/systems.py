@@ -146,7 +146,7 @@ def run_systems(
     labels = [source.name for source in sources]
     rows = [design_rows(sources, machine, run) for run in observations]
     forces = [run.force for run in observations]
-    applied = force_levels(forces)
+    applied = force_levels(force for run in observations for force in _applied(run))
     is_reference = [reference is not None and same_force(force, reference) for force in forces]
     references = sum(is_reference)
     if reference is not None:
@@ -169,6 +169,14 @@ def run_systems(
     )
     ceilings = np.linalg.norm([column_ceilings(sources, machine, run) for run in observations], axis=0)
     return Systems(tuple(sources), runs, references, applied, ceilings)
+
+
+def _applied(run: Observations) -> tuple[float, ...]:
+    """The forces [N] of a run: its level; where it stands at one place, the least and the greatest that acted there."""
+    if np.ptp(run.commands, axis=0).any():
+        return (run.force,)
+    sizes = np.linalg.norm(run.wrench[:, :3], axis=1)
+    return float(sizes.min()), float(sizes.max())
 
 
 def merged(runs: Sequence[RunSystem]) -> Factor:

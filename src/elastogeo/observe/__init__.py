@@ -1,4 +1,4 @@
-"""Instruments and tests, made into a table of observations. Stands on `drive`, `machine` and `errors`."""
+"""Instruments and tests, made into a table of observations. Stands on `drive`, `machine`, `estimate` and `errors`."""
 
 from elastogeo.observe.ball_bar import LoadedBallBar
 from elastogeo.observe.ball_roller import BallRoller
@@ -7,7 +7,11 @@ from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_
 from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
+from elastogeo.observe.probes import DisplacementProbes
 from elastogeo.observe.rig import Rig
+from elastogeo.observe.sensor_frame import Sensor, SensorFrame, sensitivities
+from elastogeo.observe.sensor_twist import SensorTwist, check_sees_twist, sensor_twist
+from elastogeo.observe.static_force import StaticForce
 from elastogeo.observe.trial import KnownInfluence, MachineTest, Question, Run, Setup
 
 __all__ = [
@@ -16,6 +20,7 @@ __all__ = [
     "BallRoller",
     "Calibration",
     "Circle",
+    "DisplacementProbes",
     "Imperfection",
     "KnownInfluence",
     "LoadedBallBar",
@@ -26,11 +31,18 @@ __all__ = [
     "Residue",
     "Rig",
     "Run",
+    "Sensor",
+    "SensorFrame",
+    "SensorTwist",
     "Setup",
+    "StaticForce",
     "check_observations",
+    "check_sees_twist",
     "force_from_pressure",
     "instrument",
     "instrument_named",
     "instruments",
     "plane_directions",
+    "sensitivities",
+    "sensor_twist",
 ]

@@ -47,6 +47,9 @@ from elastogeo.observe.roller_force import ContactForce, contact_force, observed
 from elastogeo.observe.roller_track import Track, moving, track_of
 from elastogeo.observe.trial import Respond, Run
 
+MEASURED_FORCE = 0.02
+"""Columns that differ by a smaller share than this differ by the noise of the force, which is measured."""
+
 SAME_ENGAGEMENT = 1e-6
 """Commanded engagements [mm] that differ by less are one level."""
 
@@ -307,6 +310,7 @@ class BallRoller:
             tool=np.array(machine.tool) if self._tool is None else self._tool,
             workpiece=workpiece_ball(machine, self.circle.centre, self._tool),
             length=self.circle.radius - float(track.engagement.mean()),
+            collinear=MEASURED_FORCE,
             influences=observed_influences(contact, track.direction, setup, self.setup.standard_uncertainty),
         )
         return check_observations(observations)

@@ -13,6 +13,7 @@ from math import isfinite
 import numpy as np
 
 from elastogeo.errors import InputError
+from elastogeo.estimate import RANK_TOLERANCE
 from elastogeo.machine import Array
 
 
@@ -80,6 +81,9 @@ class Observations:
     length : float [mm]
         Nominal distance of the two points if the instrument reads its change; infinite if it reads the displacement along
         a fixed direction.
+    collinear : float
+        A column of the design whose distance from the span of others is a smaller share of its length is not told from
+        them: rounding, or what the noise of a measured force makes of it.
     influences : tuple of ObservedInfluence
         What is uncertain in wrench and reading together, and alike in all runs.
     """
@@ -98,6 +102,7 @@ class Observations:
     tool: Array
     workpiece: Array
     length: float = float("inf")
+    collinear: float = RANK_TOLERANCE
     influences: tuple[ObservedInfluence, ...] = ()
 
     def __len__(self) -> int:

@@ -20,6 +20,8 @@ from elastogeo.report.as_json import (
     stiffness_json,
     what_if_json,
 )
+from elastogeo.report.as_json.drive import DRIVE_SCHEMA, drive_json
+from elastogeo.report.drive_figures import drive_figures, save_drive_figures
 from elastogeo.report.extra import MissingExtraError
 from elastogeo.report.figures import FORMATS, figures, save_figures
 from elastogeo.report.findings import (
@@ -50,6 +52,7 @@ __all__ = [
     "COMPARISON_SCHEMA",
     "CONFOUNDING_SCHEMA",
     "DIAGNOSIS_SCHEMA",
+    "DRIVE_SCHEMA",
     "FORMATS",
     "IDENTIFICATION_SCHEMA",
     "MACHINE_SCHEMA",
@@ -73,6 +76,8 @@ __all__ = [
     "diagnosis_rows",
     "display_unit",
     "display_units",
+    "drive_figures",
+    "drive_json",
     "figures",
     "html_report",
     "identification_json",
@@ -82,6 +87,7 @@ __all__ = [
     "machine_json",
     "parameter_rows",
     "pdf_report",
+    "save_drive_figures",
     "save_figures",
     "save_html",
     "save_pdf",

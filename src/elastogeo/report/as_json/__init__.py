@@ -7,6 +7,7 @@ vary, infinite degrees of freedom or travel) is null. Within one schema number, 
 from elastogeo.report.as_json.comparison import COMPARISON_SCHEMA, comparison_json
 from elastogeo.report.as_json.confounding import CONFOUNDING_SCHEMA, confounding_json
 from elastogeo.report.as_json.diagnosis import DIAGNOSIS_SCHEMA, diagnosis_json
+from elastogeo.report.as_json.drive import DRIVE_SCHEMA, drive_json
 from elastogeo.report.as_json.identification import IDENTIFICATION_SCHEMA, identification_json
 from elastogeo.report.as_json.machine import MACHINE_SCHEMA, machine_json
 from elastogeo.report.as_json.stiffness import STIFFNESS_SCHEMA, stiffness_json
@@ -16,6 +17,7 @@ __all__ = [
     "COMPARISON_SCHEMA",
     "CONFOUNDING_SCHEMA",
     "DIAGNOSIS_SCHEMA",
+    "DRIVE_SCHEMA",
     "IDENTIFICATION_SCHEMA",
     "MACHINE_SCHEMA",
     "STIFFNESS_SCHEMA",
@@ -23,6 +25,7 @@ __all__ = [
     "comparison_json",
     "confounding_json",
     "diagnosis_json",
+    "drive_json",
     "identification_json",
     "machine_json",
     "stiffness_json",
