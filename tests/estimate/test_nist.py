@@ -15,7 +15,7 @@ from numpy.testing import assert_allclose
 
 from elastogeo.errors import DegreesOfFreedomError, InputError, RankError
 from elastogeo.estimate import Noise, factor_blocks, solve
-from elastogeo.estimate.factor import BLOCK_ROWS, Array
+from elastogeo.estimate.factor import BLOCK_ROWS, SMALL_BLOCK, Array
 from elastogeo.estimate.refinement import refine
 from elastogeo.estimate.solution import SOLVABLE
 
@@ -42,11 +42,11 @@ FROM_FILES = (
     else []
 )
 
-PROMISED = {"Filip": 7.0, "Wampler4": 7.5, "Wampler5": 5.5}
-"""Digits of `solve`; 8.5 for all others. Filip's are 7.5, less what the order of the rows and the processor decide."""
+PROMISED = {"Filip": 7.5, "Wampler4": 7.5, "Wampler5": 5.5}
+"""Digits of `solve`; 8.5 for all others."""
 
 PROMISED_REFINED = {"Filip": 7.5}
-"""Digits of `refine`; 9.5 for all others. Rational arithmetic on Filip's float64 data reaches 7.6 to 7.9."""
+"""Digits of `refine`; 9.5 for all others. Rational arithmetic on Filip's float64 data reaches 7.9 (values), 8.6."""
 
 
 def assert_digits(solution, reference, wanted: float) -> None:
@@ -72,6 +72,38 @@ def test_the_solver_has_the_promised_digits(reference) -> None:
 @pytest.mark.parametrize("reference", [*BY_FORMULA, *FROM_FILES])
 def test_refined_it_has_the_promised_digits(reference) -> None:
     assert_digits(refine(reference.factor, [reference.rows]), reference, PROMISED_REFINED.get(reference.name, 9.5))
+
+
+@pytest.mark.parametrize("reference", [param for param in FROM_FILES if param.values[0].name == "Filip"])
+def test_filip_in_any_order_of_its_rows(reference) -> None:
+    """The promise in most orders (measured: 91 to 100 %, by processor), never far below it (7.2 in the worst of 300).
+
+    Half a unit in the last place of the design takes as much: decision 10. A panel of four columns gives 53 to 64 %.
+    """
+    random = np.random.default_rng(0)
+    worst = []
+    for _ in range(100):
+        rows = random.permutation(reference.rows)
+        solution = solve(factor_blocks([f"B{k}" for k in range(11)], [rows]))
+        values = make_solver.digits(solution.values, reference.values)
+        worst.append(min(values, make_solver.digits(solution.standard_uncertainty, reference.deviations)))
+    print(f"7.5 digits in {np.mean(np.array(worst) >= 7.5):.0%} of the orders; {min(worst):.2f} in the worst")
+    assert np.mean(np.array(worst) >= 7.5) >= 0.8
+    assert min(worst) >= 7.0
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_small_block_is_pushed_a_column_at_a_time(seed: int) -> None:
+    """Nearly parallel columns, as Longley's: a panel takes its products from the rows as they came, which costs a digit."""
+    random = np.random.default_rng(seed)
+    step = np.arange(16.0)
+    product = np.round(2.34e5 + 2e4 * step + 8e3 * random.standard_normal(16))
+    people = np.round(1e5 + 1e3 * step + 5e2 * random.standard_normal(16))
+    rows = np.column_stack([np.ones(16), product, people, 1947 + step, np.round(6e4 + 3e2 * random.standard_normal(16))])
+    assert rows.size <= SMALL_BLOCK
+    factor = factor_blocks("abcd", [rows.copy()])
+    refined = refine(factor, [rows])
+    assert make_solver.digits(solve(factor).standard_uncertainty, refined.standard_uncertainty) >= 14.5
 
 
 def test_the_formulas_of_wampler_are_those_of_nist() -> None:
@@ -196,25 +228,50 @@ def test_without_more_readings_than_parameters_there_is_nothing_to_refine() -> N
         refine(factor_blocks("abc", [rows.copy()]), [rows])
 
 
-def numbers(text: str) -> dict[str, list[float]]:
-    """Figures by set of the first table in a text; a dash is not a number."""
+def numbers(text: str) -> dict[str, Array]:
+    """Figures by set of the first table in a text, values and standard deviations by turns; a dash is not a number."""
     rows = re.findall(r"^\| (\w+) \| (.*) \|$", text, flags=re.MULTILINE)
     cells = {name: re.split(r" [|/] ", cells) for name, cells in rows if name != "set"}
-    return {name: [float("nan") if cell == "–" else float(cell) for cell in row] for name, row in cells.items()}
+    return {name: np.array([float("nan") if cell == "–" else float(cell) for cell in row]) for name, row in cells.items()}
+
+
+OWN, REFINED = slice(0, 2), slice(2, 4)
+"""Columns of the page: `solve`, `refine`; then the libraries."""
 
 
 def test_the_page_is_that_of_its_script() -> None:
-    """Its words exactly, its figures to 0.3 digit: all of them from NIST's files, without these the refined ones of Wampler.
+    """Its words exactly; the refined figures, which no processor changes, to 0.3 digit below NIST's own rounding.
 
-    The others may differ by more on another processor; beyond the 14th digit it is NIST's own rounding.
+    The others are the least of six processors: here they may be a digit lower, or two and a half higher.
     """
     shown = make_solver.PAGE.read_text(encoding="utf-8")
     sets, origin = make_solver.references()
-    written, measured = numbers(shown), numbers(make_solver.table(sets))
+    here = make_solver.measure_all(sets)
+    written, measured = numbers(shown), numbers(make_solver.table(here))
     assert list(written) == list(make_solver.NAMES)
-    columns = slice(None) if FROM_FILES else slice(2, 4)
     for name, row in measured.items():
-        one, other = np.minimum(row, 14.0)[columns], np.minimum(written[name], 14.0)[columns]
-        assert_allclose(one, other, rtol=0, atol=0.3, err_msg=f"{name}, from {origin}: run docs/make_solver.py")
+        message = f"{name}, from {origin}: run docs/make_solver.py"
+        one, other = np.minimum(row, 14.0), np.minimum(written[name], 14.0)
+        assert_allclose(one[REFINED], other[REFINED], rtol=0, atol=0.3, err_msg=message)
+        known = ~np.isnan(one)
+        assert (np.isnan(one) == np.isnan(other)).all(), message
+        if FROM_FILES:  # by formula, other readings are rounded
+            assert (one >= other - 1.0)[known].all(), message
+            assert (one <= other + 2.5)[known].all(), message
     words = [line for line in shown.splitlines() if not line.startswith("|")]
-    assert words == [line for line in make_solver.page(sets).splitlines() if not line.startswith("|")]
+    assert words == [line for line in make_solver.page(here).splitlines() if not line.startswith("|")]
+
+
+@pytest.mark.parametrize("name", make_solver.NAMES)
+def test_the_page_keeps_every_promise(name: str) -> None:
+    """On the worst of six processors, and in the figures as they are printed."""
+    row = numbers(make_solver.PAGE.read_text(encoding="utf-8"))[name]
+    assert row[OWN].min() >= PROMISED.get(name, 8.5)
+    assert row[REFINED].min() >= PROMISED_REFINED.get(name, 9.5)
+
+
+def test_the_page_takes_the_least_and_never_rounds_up() -> None:
+    one, other = ({"Norris": {"way": make_solver.Digits(*pair)}} for pair in ((9.99, 12.0), (10.5, 11.98)))
+    (row,) = numbers(make_solver.table(make_solver.least([one, other]))).values()
+    assert_allclose(row, [9.9, 11.9])
+    assert "9.0 / –" in make_solver.table({"Norris": {"way": make_solver.Digits(9.0, None)}})

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from scipy import stats
+from scipy import signal, stats
 
 from elastogeo.errors import DegreesOfFreedomError, UnsupportedError
 from elastogeo.estimate import Solution, factor_blocks, solve, solve_by_run
@@ -72,7 +72,19 @@ def of_the_run(random: np.random.Generator, runs: int) -> Array:
     return white(random, runs) + 3 * NOISE * random.standard_normal((runs, len(waves))) @ waves
 
 
+def autocorrelated(random: np.random.Generator, runs: int) -> Array:
+    """AR(0.9) along the trace, settled: its low harmonics scatter up to 25 times as much as its high ones."""
+    return np.asarray(signal.lfilter([NOISE], [1.0, -0.9], random.standard_normal((runs, 100 + READINGS)))[:, 100:])
+
+
+def eccentric(random: np.random.Generator, runs: int) -> Array:
+    """A set-up that moves from run to run, ten times the noise: all the scatter is in two shapes."""
+    angle = np.arange(READINGS) * 2 * np.pi / READINGS
+    return white(random, runs) + 10 * NOISE * random.standard_normal((runs, 2)) @ np.vstack([np.cos(angle), np.sin(angle)])
+
+
 NOISES = {"white": white, "of the run": of_the_run}
+UNLIKE = {**NOISES, "autocorrelated": autocorrelated, "eccentric": eccentric}
 
 
 def pairs_of(systems: Systems) -> list[list[int]]:
@@ -84,31 +96,83 @@ def changes(systems: Systems, noise: str, draws: int, added: Array | float = 0.0
     labels = systems.runs[0].factor.labels
     found = []
     for _ in range(draws):
-        drawn = with_readings(systems, NOISES[noise](random, len(systems.runs)) + added)
+        drawn = with_readings(systems, UNLIKE[noise](random, len(systems.runs)) + added)
         found.append(local_change([run.factor for run in drawn.runs], labels, pairs_of(systems)))
     return found
 
 
 def test_a_geometry_that_does_not_change_alarms_at_the_stated_rate(systems: Systems) -> None:
-    """5 % by all parameters together, and 5 % by each: exact for readings that scatter alike."""
+    """5 % by each parameter: exact for readings that scatter alike. Together 5 %, with repeats at most (Bonferroni)."""
     found = changes(systems, "white", DRAWS)
     joint = np.mean([change.significant for change in found])
     each = np.mean([[p < 0.05 for p in change.each.values()] for change in found], axis=0)
     print(f"{len(systems.runs)} runs: together {joint:.3f}, each {each.min():.3f} to {each.max():.3f}")
-    assert lower(0.05, DRAWS, 2) <= joint <= upper(0.05, DRAWS, 2)
+    assert joint <= upper(0.05, DRAWS, 2)
     assert np.all((lower(0.05, DRAWS, 26) <= each) & (each <= upper(0.05, DRAWS, 26)))
-    p_values = [change.p_value for change in found]
-    assert stats.kstest(p_values, "uniform").pvalue > 1e-3
+    if len(systems.runs) < 8:
+        assert lower(0.05, DRAWS, 2) <= joint
+        assert stats.kstest([change.p_value for change in found], "uniform").pvalue > 1e-3
+    else:
+        assert joint >= 0.005
 
 
-def test_runs_of_unlike_shape_alarm_little_more(systems: Systems) -> None:
-    """The scatter between runs counts as equal in all shapes of a trace; harmonics of the runs are not quite."""
-    found = changes(systems, "of the run", DRAWS // 2)
+@pytest.fixture(scope="module")
+def repeated(make_test: MakeTest, thesis_forces: tuple[float, ...]) -> Systems:
+    return systems_of(make_test("wFYXt", thesis_forces, parameters=THIRTEEN, repeats=2, readings=READINGS))
+
+
+@pytest.mark.parametrize("noise", UNLIKE)
+def test_with_repeats_no_shape_of_the_scatter_alarms_more(noise: str, repeated: Systems) -> None:
+    """Each parameter is judged by its own scatter between repeats: 5 %, and 5 % at most by all together."""
+    found = changes(repeated, noise, DRAWS)
     joint = np.mean([change.significant for change in found])
-    geometric = [[change.each[name] < 0.05 / 7 for name in GEOMETRIC] for change in found]
-    print(f"{len(systems.runs)} runs: together {joint:.3f}, any geometric {np.mean(np.any(geometric, axis=1)):.3f}")
-    assert joint <= upper(0.08, DRAWS // 2, 2)
-    assert np.mean(np.any(geometric, axis=1)) <= upper(0.08, DRAWS // 2, 2)
+    each = np.mean([[p < 0.05 for p in change.each.values()] for change in found], axis=0)
+    print(f"{noise}: together {joint:.3f}, each {each.min():.3f} to {each.max():.3f}, mean {each.mean():.3f}")
+    assert found[0].q == 5
+    assert found[0].degrees_of_freedom == 7
+    assert 0.005 <= joint <= upper(0.05, DRAWS, 4)
+    assert np.all(each <= upper(0.05, DRAWS, 52))
+    assert each.mean() == pytest.approx(0.05, abs=0.015)
+
+
+RATES = {"of the run": (0.03, 0.11), "autocorrelated": (0.09, 0.20)}
+"""Of alarms by all parameters together, with one run at each level: 6 and 14 % measured over 300 draws."""
+
+
+@pytest.mark.parametrize("noise", RATES)
+def test_without_repeats_runs_of_unlike_shape_alarm_more(noise: str, make_test: MakeTest, thesis_forces) -> None:
+    """The scatter between runs then counts as equal in all shapes of a trace. Where it is not, this is the price."""
+    systems = systems_of(make_test("wFYXt", thesis_forces, parameters=THIRTEEN, readings=READINGS))
+    joint = np.mean([change.significant for change in changes(systems, noise, DRAWS)])
+    print(f"{noise}: together {joint:.3f}")
+    low, high = RATES[noise]
+    assert low <= joint <= high
+
+
+def test_runs_of_other_designs_are_no_repeats(make_test: MakeTest) -> None:
+    """Three levels with one run each, and another arc at one of them: nothing is repeated, the pooled test it is."""
+    test = make_test("wFYXt", [36.0, 364.0, 742.0], parameters=THIRTEEN, readings=READINGS)
+    half = make_test("wFYXt", [36.0], parameters=THIRTEEN, angle=np.linspace(0.2, 4.0, READINGS))
+    both = replace(test, runs=(*test.runs, *(replace(run, name="arc") for run in half.runs)))
+    systems = systems_of(simulate(both, {"C_XXX": 6e-5}, Imperfection(noise=NOISE), exact=False))
+    labels = systems.runs[0].factor.labels
+    change = local_change([run.factor for run in systems.runs], labels, pairs_of(systems))
+    assert change.q + change.degrees_of_freedom == 8 * 4 - 13
+    twice = make_test("wFYXt", [36.0, 364.0, 742.0], parameters=THIRTEEN, readings=READINGS, repeats=2)
+    systems = systems_of(simulate(twice, {"C_XXX": 6e-5}, Imperfection(noise=NOISE), exact=False))
+    change = local_change([run.factor for run in systems.runs], labels, pairs_of(systems))
+    assert (change.q, change.degrees_of_freedom) == (1, 3)
+
+
+def test_repeats_without_any_scatter_alarm_by_a_change_alone(repeated: Systems) -> None:
+    """Readings without noise: rounding error is no change, a gain that grows with the force is one."""
+    labels = repeated.runs[0].factor.labels
+    x = np.array([run.design_of(["E_XX1"])[:, 0] for run in repeated.runs])
+    force = np.array([[run.force] for run in repeated.runs])
+    for readings, alarm in ((1e-4 * x, False), (1e-4 * x * (1 + (force / 742) ** 3), True)):
+        drawn = with_readings(repeated, readings)
+        change = local_change([run.factor for run in drawn.runs], labels, pairs_of(repeated))
+        assert change.significant == alarm
 
 
 def test_a_geometry_that_changes_with_the_force_is_found(systems: Systems) -> None:

@@ -86,6 +86,9 @@ def test_units_follow_from_displacement_and_load(make_machine: Callable[..., Mac
         (["C_XXZ"], "'C_XXZ' selects no error source of wFYXt; close to it: C_"),
         (["C_XXX", "Q_*"], r"'Q_\*' selects no error source"),
         ([], "no parameter was asked for"),
+        ([""], "'' among the parameters names none; take it out, or name one"),
+        (["C_XXX", " "], "' ' among the parameters names none"),
+        (["|", "C_XXX"], r"'\|' among the parameters names none"),
     ],
 )
 def test_what_selects_nothing_is_refused(asked: list[str], message: str, make_machine: Callable[..., Machine]) -> None:

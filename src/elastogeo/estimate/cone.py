@@ -34,11 +34,12 @@ Block = NDArray[np.int_]
 INSIDE = 1e-8
 """An estimate nearer to the cone than this, in squared standard uncertainties, is inside."""
 
-ROUNDING = 1e-10
-"""An estimate outside by less than this share of its own size is inside: it is the rounding error of its readings."""
+ROUNDING = 1e-9
+"""An estimate outside by less than this share of its size is inside: rounding error of its readings or of the solver."""
 
-_LARGE = 1e8
-"""Size, in standard uncertainties, that the solver takes as it is; estimates from readings without noise are larger."""
+_LARGE = (1e6, 3e5)
+"""Size, in standard uncertainties, to which a larger estimate (from readings without noise) is scaled down; if the solver
+fails at the first, the second. Much larger, and it fails at some; much smaller, and its own error exceeds `ROUNDING`."""
 
 _TOLERANCES = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8)
 """Of the solver, tried in this order."""
@@ -195,10 +196,10 @@ def project(cone: PsdCone, values: Array) -> Projection:
     if values.shape != (len(cone.root),) or not np.isfinite(values).all():
         raise InputError(f"the estimate must be {len(cone.root)} finite numbers, got {values}")
     white = solve_triangular(cone.root, values, lower=True)
-    size = max(1.0, float(np.linalg.norm(white)) / _LARGE)  # a cone has no size of its own: it may be solved smaller
-    outside, multipliers = _polar(cone, cone.basis.T @ white / size)
+    norm = float(np.linalg.norm(white))
+    outside, multipliers, size = _polar_of_any_size(cone, cone.basis.T @ white, norm)
     distance = float(outside @ outside) * size**2
-    inside = distance <= max(INSIDE, (ROUNDING * size * _LARGE) ** 2)
+    inside = distance <= max(INSIDE, (ROUNDING * norm) ** 2)
     outward = np.zeros(len(white)) if inside else cone.basis @ outside * size
     nearest = white - outward
     parameters = np.zeros(cone.effect.shape[1])
@@ -423,6 +424,17 @@ def _unseen(restrictions: Sequence[Array], dimension: int) -> list[Array] | None
     directions = _matrices(np.array(solution.z), sizes)
     greatest = max(float(np.linalg.eigvalsh(direction).max(initial=0.0)) for direction in directions)
     return [direction / greatest for direction in directions]
+
+
+def _polar_of_any_size(cone: PsdCone, point: Array, norm: float) -> tuple[Array, list[Array], float]:
+    """The same as `_polar` of a point divided by the size that is given with it: a cone has no size of its own."""
+    first, second = (max(1.0, norm / large) for large in _LARGE)
+    try:
+        return *_polar(cone, point / first), first
+    except UnsupportedError:
+        if first == second:
+            raise
+        return *_polar(cone, point / second), second
 
 
 def _polar(cone: PsdCone, point: Array) -> tuple[Array, list[Array]]:

@@ -24,8 +24,13 @@ BLOCK_ROWS = 2048
 """Rows pushed at once: enough for the cost of a call not to count, few enough for the cache."""
 
 _PANEL = 4
-"""Columns that the blocked QR takes at once. More rows times columns than 9216 and OpenBLAS would spread matrix-vector
-products over threads, which keeps a second core busy and gains nothing."""
+"""Columns that the QR takes at once in a large block. More rows times columns than `SMALL_BLOCK` and OpenBLAS would spread
+matrix-vector products over threads, which keeps a second core busy and gains nothing."""
+
+SMALL_BLOCK = 9216
+"""Numbers in a block up to which the QR takes one column at a time: each then meets what the columns before it have left,
+not the rows as they came, which rounds less where columns are nearly parallel (docs/decisions/0010-filip.md). In large
+blocks it would take twice the time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,6 +149,6 @@ def _merged(one: Factor, other: Factor) -> Factor:
 
 def _pushed(triangle: Array, rows: Array, trapezoid: int = 0) -> Array:
     """Triangle of the rows under a triangle (LAPACK dtpqrt); `trapezoid` says how many of the rows are triangular."""
-    panel = min(_PANEL, len(triangle))
+    panel = 1 if rows.size <= SMALL_BLOCK else min(_PANEL, len(triangle))
     pushed, *_ = lapack.dtpqrt(trapezoid, panel, triangle, np.asfortranarray(rows), overwrite_a=0, overwrite_b=1)
     return np.asarray(pushed)

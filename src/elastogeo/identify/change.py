@@ -28,6 +28,9 @@ _KNOWN = 1e9
 _ROUNDING = 1e-12
 """Share of the readings that is their rounding error at most: less scatter than that is none."""
 
+_ALIKE = 1e-6
+"""Relative difference of the products of columns up to which one run repeats another."""
+
 
 @dataclass(frozen=True, slots=True)
 class Change:
@@ -38,10 +41,11 @@ class Change:
     labels : tuple of str
         Parameters whose differences are tested.
     statistic : float
-        F-distributed with `q` and `degrees_of_freedom` if nothing changed. Of local estimates, `d^T V^-1 d / q` over the
-        variance that the runs show beyond these very differences; of two tests, Hotelling's, with V from both. **If their
-        degrees of freedom are not twice the differences, V is not known well enough as a whole**: then it is the surest
-        `(d / u)^2`, and the p-value allows for their number (Bonferroni).
+        F-distributed with `q` and `degrees_of_freedom` if nothing changed. Of local estimates without repeated runs,
+        `d^T V^-1 d / q` over the variance that the runs show beyond these very differences; of two tests, Hotelling's, with
+        V from both. **Where V is not known well enough as a whole** (of two tests, if their degrees of freedom are not twice
+        the differences; of local estimates, if runs are repeated, which shows the scatter of each parameter by itself), it
+        is that of the surest parameter, and the p-value allows for their number (Bonferroni).
     q : int
         How many differences.
     degrees_of_freedom : float
@@ -91,8 +95,12 @@ def _between(runs: Sequence[Factor]) -> tuple[float, float]:
         freedom += within.shape[1]
     if freedom <= 0:
         raise DegreesOfFreedomError(f"{len(runs)} runs leave no degree of freedom for {len(values)} parameters")
-    rounding = (_ROUNDING * float(np.linalg.norm([run.z for run in runs]))) ** 2
-    return max(left, freedom * rounding), freedom
+    return max(left, freedom * _rounding(runs)), freedom
+
+
+def _rounding(runs: Sequence[Factor]) -> float:
+    """Variance that is the rounding error of the readings."""
+    return (_ROUNDING * float(np.linalg.norm([run.z for run in runs]))) ** 2
 
 
 def local_change(runs: Sequence[Factor], labels: Sequence[str], choices: Sequence[Sequence[int]]) -> Change:
@@ -108,8 +116,9 @@ def local_change(runs: Sequence[Factor], labels: Sequence[str], choices: Sequenc
     Returns
     -------
     Change
-        Of each local estimate against the first; the joint covariance has the runs they share. The scatter between runs
-        counts as equally large in all shapes of a trace.
+        Of each local estimate against the first; the joint covariance has the runs they share. If runs are repeated, each
+        parameter is judged by its own scatter between repeats, whatever shape a run's scatter has. **If none is, the
+        scatter counts as equally large in all shapes of a trace**, and where it is not, alarms are false more often.
 
     Raises
     ------
@@ -124,12 +133,17 @@ def local_change(runs: Sequence[Factor], labels: Sequence[str], choices: Sequenc
     left, freedom = _between(chosen)
     norms = merge(*chosen).column_norms
     grams = [(run.R / norms).T @ (run.R / norms) for run in chosen]
-    inverses = [np.linalg.inv(sum(grams[r] for r in choice)) for choice in choices]
+    inverses: list[Array] = [np.asarray(np.linalg.inv(sum(grams[r] for r in choice))) for choice in choices]
     values = np.array([solve(merge(*(chosen[r] for r in choice))).values * norms for choice in choices])
     covariance = np.block(
         [[inverses[i] @ _shared(grams, a, b) @ inverses[j] for j, b in enumerate(choices)] for i, a in enumerate(choices)]
     )
-    return _tested(values, covariance, left, freedom, labels)
+    contrasts = _contrasts(values, covariance)
+    scores = [(run.R / norms).T @ run.z for run in chosen]
+    variances, repeats = _own_scatter(scores, grams, inverses, choices)
+    if repeats >= contrasts.rank(range(0, contrasts.size, len(labels))):
+        return _tested_by_repeats(contrasts, np.maximum(variances, _rounding(chosen)), repeats, labels)
+    return _tested(contrasts, left, freedom, labels)
 
 
 def difference(one: Solution, other: Solution, shared: Array | None = None) -> Change:
@@ -181,27 +195,97 @@ def _shared(grams: Sequence[Array], one: Sequence[int], other: Sequence[int]) ->
     return np.asarray(sum(common, np.zeros_like(grams[0])))
 
 
-def _tested(values: Array, covariance: Array, left: float, freedom: float, labels: Sequence[str]) -> Change:
-    """Every estimate against the first, `covariance` being that of readings of unit variance.
+@dataclass(frozen=True, slots=True)
+class _Contrasts:
+    """Every estimate against the first: differences, in units of what unit readings give, and their correlation."""
 
-    The differences are part of the scatter between the runs, so that they are judged by what is left of it without them.
-    """
+    delta: Array
+    correlation: Array
+
+    @property
+    def size(self) -> int:
+        return len(self.delta)
+
+    def value(self, rows: Sequence[int]) -> tuple[float, int]:
+        """`d^T V^+ d` of some differences, and its rank."""
+        return _quadratic(self.delta[rows], self.correlation[np.ix_(rows, rows)])
+
+    def rank(self, rows: Sequence[int]) -> int:
+        return self.value(rows)[1]
+
+
+def _contrasts(values: Array, covariance: Array) -> _Contrasts:
+    """Of estimates, shape (count, p), whose joint covariance is that of readings of unit variance."""
     count, p = values.shape
     contrast = np.kron(np.column_stack([-np.ones(count - 1), np.eye(count - 1)]), np.eye(p))
-    delta = contrast @ values.ravel()
     spread = contrast @ covariance @ contrast.T
     scale = np.sqrt(np.diag(spread))
-    delta, correlation = delta / scale, spread / np.outer(scale, scale)
+    return _Contrasts(contrast @ values.ravel() / scale, spread / np.outer(scale, scale))
+
+
+def _own_scatter(
+    scores: Sequence[Array], grams: Sequence[Array], inverses: Sequence[Array], choices: Sequence[Sequence[int]]
+) -> tuple[Array, int]:
+    """Variance of a reading as repeated runs show it in each parameter, shape (p,), and the degrees of freedom.
+
+    What a run adds to a local estimate is linear in its readings and scatters, between runs of the same design, by its own
+    variance in just the shape of the trace that the parameter reads: no other shape comes in.
+    """
+    left, freedom = np.zeros(len(scores[0])), 0
+    for group in _repeats(grams, sorted({run for choice in choices for run in choice})):
+        mean = np.mean([scores[run] for run in group], axis=0)
+        shares = []
+        for inverse, choice in zip(inverses, choices, strict=True):
+            members = [run for run in group if run in choice]
+            unit = np.diag(inverse @ grams[group[0]] @ inverse)  # variance that unit readings give to what a run adds
+            square = sum(((inverse @ (scores[run] - mean)) ** 2 for run in members), np.zeros_like(left))
+            if len(members) == len(group):
+                shares.append(np.divide(square, unit, out=np.zeros_like(left), where=unit > 0))
+        if shares:
+            left += np.mean(shares, axis=0)
+            freedom += len(group) - 1
+    return left / max(freedom, 1), freedom
+
+
+def _repeats(grams: Sequence[Array], runs: Sequence[int]) -> list[list[int]]:
+    """Groups of runs whose designs are alike."""
+    groups: list[list[int]] = []
+    for run in runs:
+        for group in groups:
+            if np.allclose(grams[run], grams[group[0]], rtol=0, atol=_ALIKE * np.abs(grams[run]).max()):
+                group.append(run)
+                break
+        else:
+            groups.append([run])
+    return groups
+
+
+def _tested_by_repeats(contrasts: _Contrasts, variances: Array, freedom: int, labels: Sequence[str]) -> Change:
+    """Each parameter by its own scatter; all together by the surest of them, for their number."""
+    found = [contrasts.value(range(k, contrasts.size, len(labels))) for k in range(len(labels))]
+    statistics = [value / size / variance for (value, size), variance in zip(found, variances, strict=True)]
+    each = [float(fdtrc(size, freedom, F)) for (_, size), F in zip(found, statistics, strict=True)]
+    surest = int(np.argmin(each))
+    p_value = min(1.0, len(each) * each[surest])
+    p_values = dict(zip(labels, each, strict=True))
+    return Change(tuple(labels), float(statistics[surest]), found[surest][1], float(freedom), p_value, p_values)
+
+
+def _tested(contrasts: _Contrasts, left: float, freedom: float, labels: Sequence[str]) -> Change:
+    """All differences, and those of each parameter, by the scatter between the runs in all shapes of a trace.
+
+    The differences are part of that scatter, so that they are judged by what is left of it without them.
+    """
 
     def judged(rows: Sequence[int]) -> tuple[float, int, float]:
-        value, size = _quadratic(delta[rows], correlation[np.ix_(rows, rows)])
+        value, size = contrasts.value(rows)
         rest = freedom - size
         if rest <= 0:
             raise DegreesOfFreedomError(f"the runs leave no degree of freedom to judge {size} differences by")
         return value / size / (max(left - value, _ROUNDING * left) / rest), size, rest
 
-    statistic, q, rest = judged(range(len(delta)))
-    each = {label: judged(range(k, len(delta), p)) for k, label in enumerate(labels)}
+    statistic, q, rest = judged(range(contrasts.size))
+    each = {label: judged(range(k, contrasts.size, len(labels))) for k, label in enumerate(labels)}
     p_values = {label: float(fdtrc(size, others, value)) for label, (value, size, others) in each.items()}
     return Change(tuple(labels), statistic, q, rest, float(fdtrc(q, rest, statistic)), p_values)
 
