@@ -11,8 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from elastogeo.errors import FormatError
-from elastogeo.formats import run_files
-from elastogeo.formats.run_files import HEAD, RunFormat, read_run, read_run_bytes, register, run_formats
+from elastogeo.formats import by_content, run_files
+from elastogeo.formats.by_content import HEAD
+from elastogeo.formats.run_files import RunFormat, read_run, read_run_bytes, register, run_formats
 from elastogeo.formats.table import Table
 
 FORMATS = list(run_formats().values())
@@ -128,7 +129,7 @@ def test_large_and_empty_and_missing_files_are_refused(tmp_path: Path, monkeypat
     path.touch()
     with pytest.raises(FormatError, match="the file is empty"):
         read_run(path)
-    monkeypatch.setattr(run_files, "MAX_BYTES", 10)
+    monkeypatch.setattr(by_content, "MAX_BYTES", 10)
     path.write_bytes(b"force_N\n1.25\n")
     with pytest.raises(FormatError, match="is larger than"):
         read_run(path)

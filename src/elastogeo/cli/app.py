@@ -12,7 +12,20 @@ from typing import Annotated
 import typer
 
 from elastogeo import __version__
-from elastogeo.cli import brbd, compare, confounding, demo, diagnose, drive, identify, machines, new, simulate, whatif
+from elastogeo.cli import (
+    brbd,
+    compare,
+    confounding,
+    demo,
+    diagnose,
+    drive,
+    identify,
+    machines,
+    new,
+    record,
+    simulate,
+    whatif,
+)
 from elastogeo.errors import ElastogeoError, UnsupportedError
 
 EXAMPLE = """\
@@ -26,7 +39,7 @@ First steps:
 """
 
 app = typer.Typer(rich_markup_mode=None, help=EXAMPLE, no_args_is_help=True, pretty_exceptions_enable=False)
-for module in (demo, new, simulate, identify, diagnose, whatif, compare, brbd, drive, confounding, machines):
+for module in (demo, new, simulate, identify, diagnose, whatif, compare, brbd, static, drive, record, confounding, machines):
     app.command()(getattr(module, module.__name__.rpartition(".")[2]))
 
 

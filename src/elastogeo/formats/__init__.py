@@ -7,6 +7,7 @@ from elastogeo.formats.channels import ChannelUse, Clock, OnOneClock, on_one_clo
 from elastogeo.formats.drive_files import read_drives
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, log_formats, read_log
+from elastogeo.formats.log_parquet import read_recording
 from elastogeo.formats.machine_files import find_machine, read_machine, shipped_machines
 from elastogeo.formats.new_test import write_new_test
 from elastogeo.formats.run_files import RunFormat, read_run, run_formats
@@ -33,6 +34,7 @@ __all__ = [
     "read_drives",
     "read_log",
     "read_machine",
+    "read_recording",
     "read_run",
     "read_simulation",
     "read_test",

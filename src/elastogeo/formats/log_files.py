@@ -36,16 +36,14 @@ what to do. What it repairs, it says in the log's notes; it never drops, pads or
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-import elastogeo.formats
 from elastogeo.errors import FormatError
+from elastogeo.formats.by_content import add, format_of, look_for, opened
 from elastogeo.formats.log import Log
-from elastogeo.formats.run_files import HEAD, MAX_BYTES
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +62,8 @@ class LogFormat:
         `read(data, source)`: the whole file's bytes to a `Log`; `source` is for messages.
     sample : callable
         `sample()`: the bytes of a small valid file.
+    read_folder : callable, optional
+        `read_folder(path)`: a recording that is a folder of such files; it raises a `FormatError` for any other folder.
     """
 
     name: str
@@ -71,6 +71,7 @@ class LogFormat:
     can_read: Callable[[bytes], bool]
     read: Callable[[bytes, str], Log]
     sample: Callable[[], bytes]
+    read_folder: Callable[[Path], Log] | None = None
 
 
 _FORMATS: dict[str, LogFormat] = {}
@@ -84,16 +85,12 @@ def register(log_format: LogFormat) -> None:
     FormatError
         If another format has the same name.
     """
-    if log_format.name in _FORMATS:
-        raise FormatError(f"a log format named {log_format.name!r} is registered already; give yours another name")
-    _FORMATS[log_format.name] = log_format
+    add(_FORMATS, log_format)
 
 
 def log_formats() -> dict[str, LogFormat]:
     """All known formats by name: those of every module of this package whose name begins with `log_`."""
-    for module in pkgutil.iter_modules(elastogeo.formats.__path__):
-        if module.name.startswith("log_") and module.name != "log_files":
-            importlib.import_module(f"elastogeo.formats.{module.name}")
+    look_for("log_")
     return dict(_FORMATS)
 
 
@@ -103,21 +100,16 @@ def read_log(path: str | Path) -> Log:
     Parameters
     ----------
     path : str or Path
-        The file, of at most `MAX_BYTES` bytes.
+        The file, of at most `MAX_BYTES` bytes; or a folder of `elastogeo record`.
 
     Raises
     ------
     FormatError
         If the file cannot be opened, is too large, is of no known format or of more than one, or has bad content.
     """
-    source = str(path)
-    try:
-        with open(path, "rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise FormatError(f"{source}: cannot be opened ({reason}); check the path and its permissions") from None
-    return read_log_bytes(data, source)
+    if Path(path).is_dir():
+        return _of_folder(Path(path))
+    return read_log_bytes(opened(path, str(path)), str(path))
 
 
 def read_log_bytes(data: bytes, source: str) -> Log:
@@ -128,16 +120,19 @@ def read_log_bytes(data: bytes, source: str) -> Log:
     FormatError
         As `read_log`.
     """
-    if len(data) > MAX_BYTES:
-        raise FormatError(f"{source}: is larger than {MAX_BYTES // 1_000_000} MB; split the recording into several files")
-    if not data:
-        raise FormatError(f"{source}: the file is empty; copy or export it again")
-    formats = log_formats()
-    found = [f for f in formats.values() if f.can_read(data[:HEAD])]
-    if len(found) == 1:
-        return found[0].read(data, source)
-    known = ", ".join(f"{f.name} ({f.suffix})" for f in formats.values())
-    if found:
-        claims = " and ".join(f.name for f in found)
-        raise FormatError(f"{source}: could be {claims}, so it is not read; export it in one of the formats {known}")
-    raise FormatError(f"{source}: begins with {data[:20]!r}, which no known log format does; known are {known}")
+    return format_of(log_formats(), data, source).read(data, source)
+
+
+def _of_folder(folder: Path) -> Log:
+    """The recording that a folder holds.
+
+    Raises
+    ------
+    FormatError
+        If it holds none.
+    """
+    readers = [one.read_folder for one in log_formats().values() if one.read_folder is not None]
+    for read in readers[:-1]:
+        with suppress(FormatError):
+            return read(folder)
+    return readers[-1](folder)

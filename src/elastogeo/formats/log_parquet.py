@@ -368,4 +368,4 @@ def _sample() -> bytes:
     return encode_part(head, samples)
 
 
-register(LogFormat("Parquet", ".parquet", can_read, read_parquet_log, _sample))
+register(LogFormat("Parquet", ".parquet", can_read, read_parquet_log, _sample, read_recording))

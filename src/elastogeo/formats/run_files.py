@@ -41,8 +41,6 @@ What the contract asks:
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -51,13 +49,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-import elastogeo.formats
 from elastogeo.errors import FormatError
+from elastogeo.formats.by_content import add, format_of, look_for, opened
 from elastogeo.formats.table import Table
 
-HEAD = 65_536
-MAX_BYTES = 100_000_000
-
+_ADVICE = "A text file needs a line of headers with units, such as 'angle_deg,radial_um', above its numbers"
 _CHOICE = re.compile(r"(?P<path>.+)#(?P<number>\d{1,3})", re.ASCII | re.DOTALL)
 
 Writer = Callable[[Mapping[str, NDArray[np.float64]], Mapping[str, str]], bytes]
@@ -106,16 +102,12 @@ def register(run_format: RunFormat) -> None:
     FormatError
         If another format has the same name.
     """
-    if run_format.name in _FORMATS:
-        raise FormatError(f"a run format named {run_format.name!r} is registered already; give yours another name")
-    _FORMATS[run_format.name] = run_format
+    add(_FORMATS, run_format)
 
 
 def run_formats() -> dict[str, RunFormat]:
     """All known formats by name: those of every module of this package whose name begins with `run_`."""
-    for module in pkgutil.iter_modules(elastogeo.formats.__path__):
-        if module.name.startswith("run_"):
-            importlib.import_module(f"elastogeo.formats.{module.name}")
+    look_for("run_")
     return dict(_FORMATS)
 
 
@@ -152,12 +144,7 @@ def read_run(path: str | Path) -> Table:
     """
     source = str(path)
     choice = None if Path(path).exists() else _CHOICE.fullmatch(source)
-    try:
-        with open(choice["path"] if choice else path, "rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise FormatError(f"{source}: cannot be opened ({reason}); check the path and its permissions") from None
+    data = opened(choice["path"] if choice else path, source)
     return read_run_bytes(data, source, int(choice["number"]) if choice else None)
 
 
@@ -177,22 +164,7 @@ def read_run_bytes(data: bytes, source: str, number: int | None = None) -> Table
     FormatError
         As `read_run`.
     """
-    if len(data) > MAX_BYTES:
-        raise FormatError(f"{source}: is larger than {MAX_BYTES // 1_000_000} MB; split the run into several files")
-    if not data:
-        raise FormatError(f"{source}: the file is empty; copy or export it again")
-    formats = run_formats()
-    found = [f for f in formats.values() if f.can_read(data[:HEAD])]
-    if len(found) == 1:
-        return _read(found[0], data, source, number)
-    known = ", ".join(f"{f.name} ({f.suffix})" for f in formats.values())
-    if found:
-        claims = " and ".join(f.name for f in found)
-        raise FormatError(f"{source}: could be {claims}, so it is not read; export it in one of the formats {known}")
-    raise FormatError(
-        f"{source}: begins with {data[:20]!r}, which no known format does; known are {known}. "
-        "A text file needs a line of headers with units, such as 'angle_deg,radial_um', above its numbers"
-    )
+    return _read(format_of(run_formats(), data, source, _ADVICE), data, source, number)
 
 
 def _read(run_format: RunFormat, data: bytes, source: str, number: int | None) -> Table:

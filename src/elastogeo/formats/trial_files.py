@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from elastogeo.errors import FormatError, InputError
+from elastogeo.formats.by_content import HEAD
 from elastogeo.formats.channels import ChannelUse, Clock, on_one_clock
 from elastogeo.formats.documents import build, check_schema, read_document
 from elastogeo.formats.log_files import log_formats, read_log
 from elastogeo.formats.machine_files import find_machine
-from elastogeo.formats.run_files import HEAD, read_run, run_formats
+from elastogeo.formats.run_files import read_run, run_formats
 from elastogeo.formats.table import Table
 from elastogeo.machine import OptionalForce, OptionalLength, OptionalPressure, OptionalTime
 from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, instrument_named

@@ -117,7 +117,7 @@ _VELOCITY = ("feed", "angular rate")
 QUANTITIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         **dict.fromkeys(("radial", "radius", "length", "displacement", "x", "y", "z"), ("length",)),
-        **dict.fromkeys(("position", "reading", "deviation", "error"), _POSITION),
+        **dict.fromkeys(("position", "command", "scale", "reading", "deviation", "error"), _POSITION),
         **dict.fromkeys(("angle", "a", "b", "c"), ("angle",)),
         "velocity": _VELOCITY,
         "acceleration": ("acceleration",),

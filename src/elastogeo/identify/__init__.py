@@ -36,6 +36,8 @@ from elastogeo.identify.physics import Consistency, Reciprocity, consistency, re
 from elastogeo.identify.preference import moving_axes, retaining_order
 from elastogeo.identify.result import Identification, Level, Local, Parameter, Pattern, Trace
 from elastogeo.identify.static_line import Estimate, StaticLine, static_line
+from elastogeo.identify.static_test import static_results
+from elastogeo.identify.static_test_result import Cartesian, LoadedPlace, LoadedRun, LoadStep, StaticResults, TwistRun
 from elastogeo.identify.stiffness import Stiffness, StiffnessMap, stiffness_map
 from elastogeo.identify.systems import RunSystem, Systems, merged, noise_of, run_systems
 from elastogeo.identify.verdict import CONDITION_LIMIT
@@ -50,6 +52,7 @@ __all__ = [
     "Branch",
     "Budget",
     "BudgetLine",
+    "Cartesian",
     "CartesianCompliance",
     "Change",
     "Check",
@@ -65,6 +68,9 @@ __all__ = [
     "Harmonic",
     "Identification",
     "Level",
+    "LoadStep",
+    "LoadedPlace",
+    "LoadedRun",
     "Local",
     "ModelFit",
     "OnAxis",
@@ -78,11 +84,13 @@ __all__ = [
     "RunSystem",
     "StaticHysteresis",
     "StaticLine",
+    "StaticResults",
     "Stiffness",
     "StiffnessMap",
     "Symmetry",
     "Systems",
     "Trace",
+    "TwistRun",
     "WhatIf",
     "adjacent",
     "agreement",
@@ -117,6 +125,7 @@ __all__ = [
     "run_dispersion",
     "run_systems",
     "static_line",
+    "static_results",
     "stiffness_map",
     "strongest_harmonic",
     "systems_of",

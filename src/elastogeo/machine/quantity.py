@@ -32,10 +32,11 @@ AxisCommands = Annotated[Mapping[str, float], MM_OR_RAD]
 
 TorquePerCurrent = Annotated[float | None, "N_mm_per_A"]
 ForcePerCurrent = Annotated[float | None, "N_per_A"]
-Torque = Annotated[float, "N_mm"]
 Inertia = Annotated[float, "N_mm_s2"]
 Damping = Annotated[float, "N_mm_s_per_rad"]
 OptionalTorque = Annotated[float | None, "N_mm"]
+OptionalInertia = Annotated[float | None, "N_mm_s2"]
+OptionalDamping = Annotated[float | None, "N_mm_s_per_rad"]
 Lengths = Annotated[tuple[float, ...], "mm"]
 LengthsPerForce = Annotated[tuple[float, ...], "mm_per_N"]
 

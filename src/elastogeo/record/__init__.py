@@ -1,1 +1,19 @@
 """Live acquisition from a control into files that `formats` can read. Stands on `formats` and `errors`."""
+
+from elastogeo.record.recorder import record
+from elastogeo.record.settings import RecordedNode, RecordingPlan, named_nodes, planned, read_plan
+from elastogeo.record.summary import Recording, recording_json, recording_lines
+from elastogeo.record.writing import Watcher
+
+__all__ = [
+    "RecordedNode",
+    "Recording",
+    "RecordingPlan",
+    "Watcher",
+    "named_nodes",
+    "planned",
+    "read_plan",
+    "record",
+    "recording_json",
+    "recording_lines",
+]

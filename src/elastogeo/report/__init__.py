@@ -21,6 +21,7 @@ from elastogeo.report.as_json import (
     what_if_json,
 )
 from elastogeo.report.as_json.drive import DRIVE_SCHEMA, drive_json
+from elastogeo.report.as_json.static import STATIC_SCHEMA, static_json
 from elastogeo.report.drive_figures import drive_figures, save_drive_figures
 from elastogeo.report.extra import MissingExtraError
 from elastogeo.report.figures import FORMATS, figures, save_figures
@@ -36,6 +37,7 @@ from elastogeo.report.findings import (
 from elastogeo.report.html import html_report, save_html
 from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
 from elastogeo.report.pdf import pdf_report, save_pdf
+from elastogeo.report.static import StaticTable, hysteresis_figure, save_static, static_tables
 from elastogeo.report.stiffness import (
     BalanceRow,
     StiffnessRow,
@@ -56,6 +58,7 @@ __all__ = [
     "FORMATS",
     "IDENTIFICATION_SCHEMA",
     "MACHINE_SCHEMA",
+    "STATIC_SCHEMA",
     "STIFFNESS_SCHEMA",
     "WHAT_IF_SCHEMA",
     "BalanceRow",
@@ -64,6 +67,7 @@ __all__ = [
     "DisplayUnit",
     "MissingExtraError",
     "ParameterRow",
+    "StaticTable",
     "StiffnessRow",
     "WhatIfRow",
     "balance_rows",
@@ -80,6 +84,7 @@ __all__ = [
     "drive_json",
     "figures",
     "html_report",
+    "hysteresis_figure",
     "identification_json",
     "in_micrometres",
     "level_names",
@@ -91,8 +96,11 @@ __all__ = [
     "save_figures",
     "save_html",
     "save_pdf",
+    "save_static",
     "save_stiffness",
     "significant",
+    "static_json",
+    "static_tables",
     "stiffness_figure",
     "stiffness_json",
     "stiffness_rows",

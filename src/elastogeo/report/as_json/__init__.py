@@ -10,6 +10,7 @@ from elastogeo.report.as_json.diagnosis import DIAGNOSIS_SCHEMA, diagnosis_json
 from elastogeo.report.as_json.drive import DRIVE_SCHEMA, drive_json
 from elastogeo.report.as_json.identification import IDENTIFICATION_SCHEMA, identification_json
 from elastogeo.report.as_json.machine import MACHINE_SCHEMA, machine_json
+from elastogeo.report.as_json.static import STATIC_SCHEMA, static_json
 from elastogeo.report.as_json.stiffness import STIFFNESS_SCHEMA, stiffness_json
 from elastogeo.report.as_json.what_if import WHAT_IF_SCHEMA, what_if_json
 
@@ -20,6 +21,7 @@ __all__ = [
     "DRIVE_SCHEMA",
     "IDENTIFICATION_SCHEMA",
     "MACHINE_SCHEMA",
+    "STATIC_SCHEMA",
     "STIFFNESS_SCHEMA",
     "WHAT_IF_SCHEMA",
     "comparison_json",
@@ -28,6 +30,7 @@ __all__ = [
     "drive_json",
     "identification_json",
     "machine_json",
+    "static_json",
     "stiffness_json",
     "what_if_json",
 ]

@@ -1,0 +1,49 @@
+"""`elastogeo static`: what a static load shows: hysteresis, Cartesian stiffness, the twist of the tool."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from elastogeo.cli.options import AsJson, TestPath, refuse_if
+
+
+def static(
+    test: TestPath,
+    feedback: Annotated[
+        str, typer.Option(help="What the loaded axis closes its position loop on: motor (its encoder) or scale.")
+    ] = "motor",
+    report: Annotated[Path | None, typer.Option(help="Folder to write the report and its figures to.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Evaluate a static test: force ramps, weights, displacement probes, a frame of sensors.
+
+    Beside the joint compliances that the test asks for: hysteresis and static compliance of force ramps (and where in the
+    drive the loaded axis yields, if its positions were recorded), the Cartesian stiffness from displacement probes, the
+    twist of the tool and the sensor that stands out from a sensor frame.
+
+    \b
+    Example:
+      elastogeo static examples/static-force --report my-report
+    """
+    from elastogeo.cli import screen
+    from elastogeo.cli.static_screen import show_static
+    from elastogeo.formats import read_test
+    from elastogeo.identify.static_test import static_results
+    from elastogeo.report.as_json.static import static_json
+    from elastogeo.report.static import save_static
+
+    with screen.progress("reading the runs", quiet=as_json) as step:
+        asked = read_test(test)
+        step("evaluating")
+        found = static_results(asked, feedback)
+        written = [screen.write_report(found.joints, report, step), *save_static(found, report)] if report else []
+    if as_json:
+        screen.show_json(static_json(found))
+    else:
+        show_static(found)
+        if written:
+            screen.say(f"Report: {', '.join(map(str, written))}")
+    refuse_if(found.verdict)
