@@ -7,8 +7,8 @@ from pathlib import Path
 
 PAGE = Path(__file__).with_name("cli.md")
 COMMANDS = (
-    "demo", "new", "simulate", "identify", "diagnose", "whatif", "compare", "brbd", "static", "drive", "record", "confounding",
-    "machines",
+    "demo", "new", "simulate", "identify", "diagnose", "whatif", "compare", "brbd", "static", "drive", "record",
+    "confounding", "machines",
 )  # fmt: skip
 INTRODUCTION = """\
 # Command line

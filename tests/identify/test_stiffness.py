@@ -106,23 +106,35 @@ def test_a_rig_of_another_compliance_does_not_agree() -> None:
     assert not check.passed
 
 
-def test_a_dynamometer_is_compared_with_the_currents() -> None:
-    test = simulated()
-    by_name = {observed.run: observed for observed in test.observations()}
+@pytest.mark.parametrize(("gain", "agrees"), [(1.0, True), (1.1, False)])
+def test_a_dynamometer_is_compared_with_the_currents(gain: float, agrees: bool) -> None:
+    """Against the force that Eq. 6.4 gives from the true compliance and path, by hand, with the noise of a dynamometer."""
+    test, random = simulated(), np.random.default_rng(5)
     measured = []
     for run in test.runs:
-        if run.name not in by_name:
-            measured.append(run)
-            continue
-        track, contact = test.setup.contacts(test.machine, test.runs)[run.name]
-        gauge = contact.force[:, np.newaxis] * track.direction / 1.05
-        forces = {f"force_{axis}": np.interp(run.columns["time"], track.time, gauge[:, k]) for k, axis in enumerate("xy")}
-        measured.append(replace(run, columns={**run.columns, **forces}))
+        x, y = run.columns["position_x"], run.columns["position_y"]
+        angle, engagement = np.arctan2(y, x), run.engagement or 0.0
+        path = TRUTH["E_Xt0"] * np.cos(angle) + TRUTH["E_XX1"] * 56.4 * np.cos(angle) ** 2
+        force = (engagement - path) / (true_compliance(angle) + 1 / 15e3) * (engagement > 0) / gain
+        noise = 3.0 * random.standard_normal((2, len(angle)))
+        gauge = {"force_x": force * np.cos(angle) + noise[0], "force_y": force * np.sin(angle) + noise[1]}
+        measured.append(replace(run, columns={**run.columns, **gauge}))
     found = stiffness_map(replace(test, runs=tuple(measured)))
     assert found.dynamometer is not None
-    assert_allclose(found.dynamometer.gain, 1.05, rtol=1e-3)
+    assert_allclose(found.dynamometer.gain, gain, rtol=0.01)
+    assert found.dynamometer.gain_is_one == agrees
+    check = next(check for check in found.verdict if check.name == "force agrees with the dynamometer")
+    assert check.passed == found.dynamometer.agrees
+
+
+def test_a_dynamometer_that_measures_something_else_is_said() -> None:
+    test, random = simulated(), np.random.default_rng(5)
+    noise = tuple(replace(run, columns={**run.columns, "force_x": random.standard_normal(360)}) for run in test.runs)
+    found = stiffness_map(replace(test, runs=noise))
+    assert found.dynamometer is None
     check = next(check for check in found.verdict if check.name == "force agrees with the dynamometer")
     assert not check.passed
+    assert "could not be judged: the force records correlate by" in check.sentence
 
 
 def test_one_level_does_not_tell_compliance_from_path() -> None:

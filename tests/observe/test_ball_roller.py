@@ -128,6 +128,7 @@ def test_without_an_unloaded_run_inertia_and_load_are_one() -> None:
         test.observations()
     assert "load at 200 um" in str(refused.value)
     assert "known inertia" in str(refused.value)
+    assert "known friction" not in str(refused.value)
 
 
 def test_a_known_inertia_separates_it_from_the_load() -> None:
@@ -136,6 +137,25 @@ def test_a_known_inertia_separates_it_from_the_load() -> None:
     known = replace(test, setup=replace(test.setup, balances=inertias))
     found = {p.name: p.value for p in identify(known).parameters}
     assert_allclose(found["C_XXX"], CASES["wCAYfXZt"][1]["C_XXX"], rtol=0.02)
+
+
+def test_with_loads_beside_the_friction_the_intervals_hold_too() -> None:
+    """The load goes with the turn: as one number times the cosine it would push what is eccentric into the drive."""
+    truth = CASES["wCAYfXZt"][1]
+    inertias = tuple(KnownBalance(axis, inertia=BALANCES[axis].inertia) for axis in "XY")
+    hits = []
+    for seed in range(6):
+        test = simulated(imperfection=NOISY, seed=seed, runs=runs_of((0.06, 0.13, 0.2), 400, 2))
+        result = identify(replace(test, setup=replace(test.setup, balances=inertias)))
+        hits += [p.interval[0] <= truth[p.name] <= p.interval[1] for p in result.parameters]
+    assert np.mean(hits) >= 0.95 - 3 * np.sqrt(0.95 * 0.05 / len(hits))
+
+
+def test_a_loaded_run_does_not_pass_for_an_unloaded_one() -> None:
+    test = simulated()
+    forgotten = tuple(replace(run, engagement=None) if run.name == "200um--1-1" else run for run in test.runs)
+    with pytest.raises(InputError, match="'200um--1-1' claims no engagement, but the encoders show one of 200 um"):
+        replace(test, runs=forgotten).observations()
 
 
 def test_known_balances_observe_a_single_run() -> None:

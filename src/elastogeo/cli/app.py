@@ -24,6 +24,7 @@ from elastogeo.cli import (
     new,
     record,
     simulate,
+    static,
     whatif,
 )
 from elastogeo.errors import ElastogeoError, UnsupportedError

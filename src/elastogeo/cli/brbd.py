@@ -47,4 +47,4 @@ def brbd(
         show_stiffness(found)
         if written:
             screen.say(f"Report: {written}, {written.with_name('stiffness.svg')}")
-    refuse_if(found.verdict)
+    refuse_if((*found.verdict, *found.joints.verdict))

@@ -26,3 +26,7 @@ def show_stiffness(found: StiffnessMap) -> None:
     screen.say("")
     for check in found.verdict:
         screen.show_check(check)
+    said = {check.name for check in found.verdict}
+    for check in found.joints.verdict:
+        if check.name not in said:
+            screen.show_check(check)

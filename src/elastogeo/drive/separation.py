@@ -14,12 +14,13 @@ _MOTION = ("inertia", *_SPEED, *_FRICTION, "constant", "stribeck")
 def advice(axis: str, found: Confounding) -> str:
     """What cannot be told apart of the balance of an axis, and what would separate it; empty if all can."""
     sentences = []
+    with_inertia = any("inertia" in terms for terms in map(found.stands_for, found.retained) if len(terms) > 1)
     for name in found.retained:
         terms = found.stands_for(name)
         if len(terms) > 1:
             sentences.append(
                 f"axis {axis}: {combination(terms)} is determined as one number only, none of its terms by itself; "
-                f"{_remedy(tuple(terms), found.labels)}"
+                f"{_remedy(tuple(terms), found.labels, with_inertia)}"
             )
     if found.null:
         sentences.append(
@@ -53,8 +54,8 @@ def named(reasons: Sequence[str]) -> str:
     return ", and ".join(reasons)
 
 
-def _remedy(terms: Sequence[str], labels: Sequence[str]) -> str:
-    """What would separate these terms."""
+def _remedy(terms: Sequence[str], labels: Sequence[str], with_inertia: bool) -> str:
+    """What would separate these terms, where the inertia is one of them or of another combination, or of none."""
     loads = [name for name in terms if name not in _MOTION]
     friction = [name for name in terms if name in _FRICTION]
     if loads and "inertia" in terms:
@@ -62,6 +63,8 @@ def _remedy(terms: Sequence[str], labels: Sequence[str]) -> str:
             "the load follows the acceleration, as on a circle at constant feed: two feeds, an unloaded run, or a known "
             "inertia would separate them"
         )
+    if len(loads) == len(terms) and with_inertia:
+        return "what separates the inertia from the loads separates these too"
     if loads:
         return "the load follows the friction: an unloaded run, or known friction, would separate them"
     if friction and "constant" in terms and {"coulomb forward", "coulomb backward"} <= set(labels):

@@ -409,7 +409,8 @@ def _parameters(systems: Systems, found: Confounding, solution: Solution, budget
 def _spans(systems: Systems, labels: Sequence[str]) -> Array:
     """Span of the columns over the strongest run; over all runs where a run has one force at one place."""
     within = np.ptp(_strongest(systems).design_of(labels), axis=0)
-    return np.asarray(np.where(within > 0, within, np.ptp(np.vstack([run.design_of(labels) for run in systems.runs]), axis=0)))
+    over_all = np.ptp(np.vstack([run.design_of(labels) for run in systems.runs]), axis=0)
+    return np.asarray(np.where(within > 0, within, over_all))
 
 
 def _repeats(systems: Systems, retained: Sequence[str]) -> Repeatability | None:

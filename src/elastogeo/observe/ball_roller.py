@@ -50,6 +50,13 @@ from elastogeo.observe.trial import Respond, Run
 MEASURED_FORCE = 0.02
 """Columns that differ by a smaller share than this differ by the noise of the force, which is measured."""
 
+LOAD_ORDERS = (1, 2)
+"""Harmonics of the turn that the load of a run may have where the drives' friction is identified beside it: an eccentric
+ball, machines that are stiffer in one direction."""
+
+UNCLAIMED = 0.01
+"""Engagement [mm] that the encoders may show of a run that claims none."""
+
 SAME_ENGAGEMENT = 1e-6
 """Commanded engagements [mm] that differ by less are one level."""
 
@@ -156,6 +163,7 @@ class BallRoller:
             If there is none, or the runs do not tell the drives' own torques from the load.
         """
         tracks = {run.name: self._track(machine, run) for run in runs}
+        self._check_engagements(runs, tracks)
         loaded = [run.name for run in runs if self._engaged(run)]
         if not loaded:
             raise UnsupportedError("no run has an engagement; give engagement_um to those at which the roller was pressed")
@@ -255,6 +263,16 @@ class BallRoller:
             f"simulation file"
         )
 
+    def _check_engagements(self, runs: Sequence[Run], tracks: dict[str, Track]) -> None:
+        """Refuse a loaded run that passes for an unloaded one."""
+        for run in runs:
+            shown = float(tracks[run.name].engagement.mean())
+            if not self._engaged(run) and shown > UNCLAIMED:
+                raise InputError(
+                    f"run {run.name!r} claims no engagement, but the encoders show one of {1000 * shown:.0f} um; give its "
+                    f"engagement_um, or correct the radius at which ball and roller just touch"
+                )
+
     def _engaged(self, run: Run) -> bool:
         return run.engagement is not None and run.engagement > 0
 
@@ -278,11 +296,16 @@ class BallRoller:
         return identify_balance(records, model, known_terms(known, drive) if known else {}).balance
 
     def _loaded_record(self, machine: Machine, drive: FeedDrive, run: Run, track: Track) -> DriveRecord:
-        """The record of a loaded run, with the direction pattern of its load (Eqs. 6.7, 6.8)."""
+        """The record of a loaded run, with the direction pattern of its load (Eqs. 6.7, 6.8), which may go with the turn."""
         push = np.column_stack([track.direction, np.zeros_like(track.direction)])
         pattern = -joint_forces(machine, track.commands, push, [drive.axis], self._tool)[:, 0]
         level = f"load at {1000 * (run.engagement or 0.0):g} um"
-        return replace(track.records[drive.axis], disturbance={level: pattern})
+        waves = {
+            f"{level}, {name} {order}": pattern * wave(order * track.angle)
+            for order in LOAD_ORDERS
+            for name, wave in (("cos", np.cos), ("sin", np.sin))
+        }
+        return replace(track.records[drive.axis], disturbance={level: pattern, **waves})
 
     def _observations(self, machine: Machine, run: Run, track: Track, contact: ContactForce, level: float) -> Observations:
         """The readings that count: at which the contact's force is known."""

@@ -32,4 +32,4 @@ def setup_offsets(_: Machine) -> Iterator[Source]:
                 driver=constant,
                 meaning=f"offset of the {name} in {COMPONENTS[d].lower()}",
             )
-    yield Source("E_R0", "mm", ("reading", ""), 0, constant, "length of the bar beyond its nominal one, or zero of the sensor")
+    yield Source("E_R0", "mm", ("reading", ""), 0, constant, "bar longer than nominal, or zero of the sensor")
