@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose
 
 from elastogeo.drive import BalanceFit, DriveRecord, TorqueBalance, TorqueModel, identify_balance
 from elastogeo.drive.balance import usable
+from elastogeo.drive.differentiator import differentiate
 from elastogeo.errors import InputError, RankError
 
 RATIO = 10 / (2 * np.pi)
@@ -148,6 +149,16 @@ def test_constant_feed_on_a_line_determines_one_number() -> None:
     assert fit.determined == {}
     assert "two speeds or more, in both directions, would separate them" in fit.sentence
     assert "inertia changes no effort in these records" in fit.sentence
+
+
+def test_the_rounding_of_a_differentiated_ramp_is_no_acceleration() -> None:
+    time = 0.01 * np.arange(400)
+    made = differentiate(time, 5 * time, 10.0)
+    assert made.acceleration.any()
+    effort = 1.0 + 0.001 * (np.arange(400) % 7)
+    fit = identify_balance([DriveRecord("ramp", "X", time, made.position, made.velocity, made.acceleration, effort)])
+    assert fit.confounding.null == ("inertia",)
+    assert fit.determined == {}
 
 
 @pytest.mark.parametrize("value", [0.0, 1.25])

@@ -49,6 +49,13 @@ def test_a_parabola_is_differentiated_exactly() -> None:
     assert_allclose(found.acceleration[inside], 6.0, rtol=1e-5)
 
 
+def test_a_ramp_is_differentiated_exactly_up_to_its_ends() -> None:
+    """Constant feed: the filter adds no transient at the ends, which would pass for an acceleration."""
+    found = differentiate(TIME, 3.0 + 5.0 * TIME, 20.0)
+    assert_allclose(found.velocity, 5.0, rtol=1e-9)
+    assert_allclose(found.acceleration, 0.0, atol=1e-6)
+
+
 def test_a_record_is_cut_where_its_clock_jumps() -> None:
     time = np.concatenate([TIME, TIME + TIME[-1] + 5.0])
     position = np.concatenate([np.sin(TIME), 100 + np.sin(TIME)])

@@ -244,7 +244,8 @@ def identify_balance(
     check_alive(records, masks, model)
     rows = design_rows(records, model, known, masks)
     labels = free_labels(records, model, known)
-    found = confounding(merge(*factors_of(rows, labels)), preference=labels, tolerance=COLLINEAR)
+    factor = merge(*factors_of(rows, labels))
+    found = confounding(factor, labels, _ceilings(factor, records), COLLINEAR)
     solution, counted = solved(rows, labels, found.retained)
     at = [found.labels.index(label) for label in solution.labels]
     residual = np.concatenate([block[:, -1] - block[:, at] @ solution.values for block in rows])
@@ -264,6 +265,13 @@ def identify_balance(
         r2=1.0 - float(residual @ residual) / spread if spread > 0 else float("nan"),
         units=units_of(records, model),
     )
+
+
+def _ceilings(factor: Factor, records: Sequence[DriveRecord]) -> Array:
+    """The length of each column if nothing cancelled: an acceleration is a difference of velocities a sample apart."""
+    jump = max(float(np.abs(record.velocity).max()) / record.step for record in records)
+    of = {"inertia": jump * np.sqrt(factor.rows)}
+    return np.array([of.get(label, norm) for label, norm in zip(factor.labels, factor.column_norms, strict=True)])
 
 
 def solved(rows: Sequence[Array], labels: Sequence[str], retained: Sequence[str]) -> tuple[Solution, str]:

@@ -308,7 +308,8 @@ def _record(
             f"{source}, axis {axis}: no sample is far enough from an end for a cut-off of {chosen:.3g} Hz; record longer"
         )
     if from_velocity:
-        where = _integrated(time, made.position) if position is None else position
+        # Segments too short for the filter have no number; their samples are left out below.
+        where = _integrated(time, np.nan_to_num(made.position)) if position is None else position
         position, velocity, acceleration = where, made.position, made.velocity
     else:
         position, velocity, acceleration = made.position, made.velocity, made.acceleration
