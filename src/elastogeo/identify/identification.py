@@ -76,14 +76,15 @@ def identify(test: MachineTest) -> Identification:
     found = confounding_of(test, systems)
     if test.question.robust:
         systems = downweighted(systems, found.retained)
-    return _assessed(_identified(test, systems, found), systems)
+    known = effects_of(test, systems)
+    return _assessed(_identified(test, systems, found, known), systems, known)
 
 
-def _identified(test: MachineTest, systems: Systems, found: Confounding) -> Identification:
+def _identified(test: MachineTest, systems: Systems, found: Confounding, known: Sequence[Effect]) -> Identification:
     """The estimate and its uncertainty, not yet held against models and physics."""
     naive = solve(merged(systems.runs), found.retained, noise_of(systems.runs, systems.references))
     solution = _by_run(systems, found) or naive
-    budget = uncertainty_budget(systems, solution, effects_of(test, systems))
+    budget = uncertainty_budget(systems, solution, known)
     traces = tuple(_trace(run, solution) for run in systems.runs)
     return Identification(
         test=test,
@@ -106,13 +107,13 @@ def _identified(test: MachineTest, systems: Systems, found: Confounding) -> Iden
     )
 
 
-def _assessed(result: Identification, systems: Systems) -> Identification:
+def _assessed(result: Identification, systems: Systems, known: Sequence[Effect]) -> Identification:
     """The result with its verdict, and with what models and physics say where they can."""
     parameters, geometric = result.parameters, [p.name for p in result.parameters if not p.elastic]
     elastic = any(p.elastic and p.axis for p in parameters) and all(p.separated for p in parameters)
     if elastic and not systems.references and len(systems.levels) >= LEVELS_FOR_MODELS:
         result = replace(result, models=compare_models(result.test.machine, systems, result.confounding.retained))
-    result, drawn = _held_against_draws(result, systems)
+    result, drawn = _held_against_draws(result, systems, known)
     physics = None
     if elastic:
         result, physics = _held_against_physics(result)
@@ -136,9 +137,10 @@ def _assessed(result: Identification, systems: Systems) -> Identification:
     return replace(result, verdict=tuple(check for check in verdict if check is not None))
 
 
-def _held_against_draws(result: Identification, systems: Systems) -> tuple[Identification, Check | None]:
+def _held_against_draws(
+    result: Identification, systems: Systems, known: Sequence[Effect]
+) -> tuple[Identification, Check | None]:
     """The result with the random draws of its influences, if it has any; a check that could not be made says so."""
-    known = effects_of(result.test, systems)
     if not known:
         return result, None
     try:
