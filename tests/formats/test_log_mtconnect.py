@@ -9,7 +9,7 @@ from elastogeo.errors import FormatError
 from elastogeo.formats.elements import MAX_ELEMENTS
 from elastogeo.formats.log_files import read_log_bytes
 from elastogeo.formats.log_mtconnect import can_read, read_mtconnect
-from elastogeo.formats.observations import MAX_ITEMS
+from elastogeo.formats.mtconnect_observations import MAX_ITEMS
 
 
 def observation(

@@ -28,7 +28,7 @@ from elastogeo.errors import FormatError
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, register
 from elastogeo.formats.mdf4_blocks import Blocks, text_of
-from elastogeo.formats.observations import stamp_of
+from elastogeo.formats.mtconnect_observations import stamp_of
 from elastogeo.formats.units import UNITS, to_internal
 
 Array = NDArray[np.float64]

@@ -29,7 +29,7 @@ from elastogeo.errors import FormatError
 from elastogeo.formats.elements import MAX_DEPTH, MAX_ELEMENTS, feed_elements, local
 from elastogeo.formats.log import Log
 from elastogeo.formats.log_files import LogFormat, register
-from elastogeo.formats.observations import NUMBER, Item, Observations, numbers_of, rate_of, stamp_of
+from elastogeo.formats.mtconnect_observations import NUMBER, Item, Observations, numbers_of, rate_of, stamp_of
 from elastogeo.formats.units import UNITS
 
 _ROOT = re.compile(rb"<([A-Za-z_][\w.-]{0,40}:)?MTConnectStreams[\s/>]")

@@ -26,7 +26,7 @@ from collections import Counter
 from elastogeo.errors import FormatError
 from elastogeo.formats.log import Log
 from elastogeo.formats.log_files import LogFormat, register
-from elastogeo.formats.observations import NUMBER, Observations, listed, numbers_of, rate_of, stamp_of
+from elastogeo.formats.mtconnect_observations import NUMBER, Observations, listed, numbers_of, rate_of, stamp_of
 
 MAX_LINE = 1_000_000
 MAX_FIELDS = 2000
