@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from elastogeo.identify import Identification
 from elastogeo.machine import Array
-from elastogeo.observe import LoadedBallBar
+from elastogeo.observe import BallRoller, LoadedBallBar
 from elastogeo.report.style import FAINT, GREY, INK, SMALL, nice_step, thinned
 from elastogeo.report.text import UM
 
@@ -114,7 +114,7 @@ def is_angular(result: Identification) -> bool:
 def nominal_radius(result: Identification) -> float | None:
     """Radius [mm] of the circle that the test was to make, if it was to make one."""
     setup = result.test.setup
-    return setup.circle.radius if isinstance(setup, LoadedBallBar) else None
+    return setup.circle.radius if isinstance(setup, LoadedBallBar | BallRoller) else None
 
 
 def pose_axis(result: Identification) -> tuple[str, float]:

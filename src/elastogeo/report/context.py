@@ -9,7 +9,7 @@ from typing import Any
 from elastogeo import __version__
 from elastogeo.estimate import Repeatability
 from elastogeo.identify import CONDITION_LIMIT, Circularity, Comparison, Consistency, Diagnosis, Identification
-from elastogeo.observe import LoadedBallBar
+from elastogeo.observe import BallRoller, LoadedBallBar
 from elastogeo.report.as_json.envelope import instrument_name
 from elastogeo.report.budgets import budget_tables, degrees, uncertainty_table
 from elastogeo.report.findings import diagnosis_of, diagnosis_rows
@@ -90,7 +90,7 @@ def facts(result: Identification) -> list[tuple[str, str]]:
         ("Machine", f"{machine}{test.machine.topology.compact} {test.machine.topology.iso}"),
         ("Instrument", instrument_name(test).replace("-", " ")),
     ]
-    if isinstance(setup, LoadedBallBar):
+    if isinstance(setup, LoadedBallBar | BallRoller):
         plane = f"plane {setup.circle.plane}" if isinstance(setup.circle.plane, str) else "a tilted plane"
         lines.append(("Path", f"circle, {plane}, radius {setup.circle.radius:g} mm, {setup.feed * _MINUTE:g} mm/min"))
     readings = sum(len(next(iter(run.columns.values()))) for run in test.runs)

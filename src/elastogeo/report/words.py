@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from elastogeo.estimate import Confounding
 from elastogeo.identify import SIGNIFICANT, Comparison, Identification, Parameter
 from elastogeo.identify.budget import SCATTER
-from elastogeo.observe import LoadedBallBar, MachineTest
+from elastogeo.observe import BallRoller, LoadedBallBar, MachineTest
 from elastogeo.report.numbers import micro, probability, significant
 from elastogeo.report.text import all_separated
 
@@ -144,6 +144,11 @@ def keep_in_mind(result: Identification) -> list[str]:
         words.append(
             "Results are only as traceable as the force (its gauge, its calibration) and the bar calibration that were "
             "entered; the form error of the balls, which can reach 30 µm, is taken for an error of the machine."
+        )
+    if isinstance(result.test.setup, BallRoller):
+        words.append(
+            "Results are only as traceable as the motor constants, the transmissions and their efficiency, and the set-up's "
+            "compliance that were entered; the force is that of a slow motion, with the roller rolling."
         )
     return words + assumptions(result.test)
 
