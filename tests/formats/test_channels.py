@@ -281,7 +281,7 @@ def test_a_channel_is_found_by_its_name_or_by_the_quantity_that_it_says() -> Non
     ):
         assert on_one_clock(USES, (use,)).table.columns[use.quantity].tolist() == [1, 2]
     assert on_one_clock(USES, (ChannelUse("q", "x_mm"),)).table.columns["q"].tolist() == [1, 2]
-    assert on_one_clock(USES, (ChannelUse("scale", "ENC_POS|1", "1"),)).table.columns["scale"].tolist() == [1, 2]
+    assert on_one_clock(USES, (ChannelUse("factor", "ENC_POS|1", "1"),)).table.columns["factor"].tolist() == [1, 2]
 
 
 @pytest.mark.parametrize(
