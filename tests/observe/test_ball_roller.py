@@ -163,8 +163,10 @@ def test_known_balances_observe_a_single_run() -> None:
     known = replace(test.setup, balances=(BALANCES["X"], BALANCES["Y"]))
     one, together = known.observe(test.machine, test.runs[-1]), known.observe_all(test.machine, test.runs)[-1]
     assert_allclose(one.reading, together.reading)
-    with pytest.raises(InputError, match="torque balance of axis X, Y is not known; observe all runs"):
-        test.setup.observe(test.machine, test.runs[-1])
+    partly = replace(test.setup, balances=(BALANCES["X"], KnownBalance("Y", inertia=4.0)))
+    for setup, axes in ((test.setup, "X, Y"), (partly, "Y")):
+        with pytest.raises(InputError, match=f"torque balance of axis {axes} is not known; observe all runs"):
+            setup.observe(test.machine, test.runs[-1])
 
 
 def test_uncertain_drives_and_setup_move_the_estimate_as_stated() -> None:

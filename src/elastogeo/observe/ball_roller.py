@@ -132,15 +132,15 @@ class BallRoller:
         InputError
             If the balance of a drive is not known: it takes all runs to identify it.
         """
-        known = {balance.axis: balance for balance in self.balances}
-        missing = [drive.axis for drive in self.drives if drive.axis not in known]
+        known = {drive.axis: self._given(drive) for drive in self.drives}
+        missing = [axis for axis, balance in known.items() if balance is None]
         if missing:
             raise InputError(
                 f"the torque balance of axis {', '.join(missing)} is not known; observe all runs of the test together, or "
                 f"give it as [[setup.balances]]"
             )
         track = self._track(machine, run)
-        balances = {drive.axis: known_torque_balance(known[drive.axis], drive, self.least_speed) for drive in self.drives}
+        balances = {axis: balance for axis, balance in known.items() if balance is not None}
         contact = contact_force(machine, track, self.drives, balances, self.harmonics, self._tool)
         return self._observations(machine, run, track, contact, float(contact.force.mean()))
 
@@ -184,13 +184,7 @@ class BallRoller:
             If the runs do not determine it; the message says which parameters fall together, and what would tell them apart.
         """
         tracks = tracks or {run.name: self._track(machine, run) for run in runs}
-        known = {balance.axis: balance for balance in self.balances}
-        return {
-            drive.axis: known_torque_balance(known[drive.axis], drive, self.least_speed)
-            if drive.axis in known and len(known_terms(known[drive.axis], drive)) == len(self.terms)
-            else self._identified(machine, drive, known.get(drive.axis), runs, tracks)
-            for drive in self.drives
-        }
+        return {drive.axis: self._given(drive) or self._identified(machine, drive, runs, tracks) for drive in self.drives}
 
     def simulated(
         self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
@@ -241,7 +235,7 @@ class BallRoller:
             position = commands.position[:, joint] + offsets[k]
             columns[f"position_{drive.axis.lower()}"] = imperfection.noisy(position, random)
             acceleration = np.zeros(len(angle)) if commands.acceleration is None else commands.acceleration[:, joint]
-            effort = balance_effort(self._known(drive), drive, commands.velocity[:, joint], acceleration)
+            effort = balance_effort(self._true(drive), drive, commands.velocity[:, joint], acceleration)
             effort += effort_from_force(drive, held[:, k])
             noise = imperfection.current_noise * random.standard_normal(len(angle))
             columns[f"current_{drive.axis.lower()}"] = current_from_effort(drive, effort) + noise
@@ -254,10 +248,20 @@ class BallRoller:
     def _centre(self, machine: Machine) -> Array:
         return np.array([self.circle.centre.get(axis, 0.0) for axis in machine.axes])
 
-    def _known(self, drive: FeedDrive) -> KnownBalance:
-        for balance in self.balances:
-            if balance.axis == drive.axis:
-                return balance
+    def _known(self, drive: FeedDrive) -> KnownBalance | None:
+        return next((balance for balance in self.balances if balance.axis == drive.axis), None)
+
+    def _given(self, drive: FeedDrive) -> TorqueBalance | None:
+        """The balance of a drive, if all its terms are given."""
+        known = self._known(drive)
+        if known is None or len(known_terms(known, drive)) < len(self.terms):
+            return None
+        return known_torque_balance(known, drive, self.least_speed)
+
+    def _true(self, drive: FeedDrive) -> KnownBalance:
+        known = self._known(drive)
+        if known is not None:
+            return known
         raise InputError(
             f"to simulate the current of axis {drive.axis}, its true torques must be given: [[setup.balances]] of the "
             f"simulation file"
@@ -287,10 +291,11 @@ class BallRoller:
         return track if self.harmonics else moving(track, self.least_speed)
 
     def _identified(
-        self, machine: Machine, drive: FeedDrive, known: KnownBalance | None, runs: Sequence[Run], tracks: dict[str, Track]
+        self, machine: Machine, drive: FeedDrive, runs: Sequence[Run], tracks: dict[str, Track]
     ) -> TorqueBalance:
         """The balance of a drive from the unloaded runs; where there is none, with the loads of the others as unknowns."""
-        model = TorqueModel(terms=self.terms, least_speed=self.least_speed)
+        known = self._known(drive)
+        model = TorqueModel(self.terms, self.least_speed, known.smooth_speed if known else None)
         unloaded = [tracks[run.name].records[drive.axis] for run in runs if not self._engaged(run)]
         records = unloaded or [self._loaded_record(machine, drive, run, tracks[run.name]) for run in runs]
         return identify_balance(records, model, known_terms(known, drive) if known else {}).balance
