@@ -13,6 +13,7 @@ from elastogeo.identify.enclosure import Path
 from elastogeo.identify.result import Identification, Parameter, Trace
 from elastogeo.identify.systems import same_force
 from elastogeo.machine import Array
+from elastogeo.observe import LoadedBallBar
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +88,7 @@ def diagnose(result: Identification) -> Diagnosis:
 
 
 def level_circularity(result: Identification, traces: Sequence[Trace] | None = None) -> dict[float, Circularity]:
-    """ISO 230-4 parameters by force level [N], of the first run in each direction; empty if there is no circle.
+    """ISO 230-4 parameters by force level [N], of the first run in each direction; empty for what is no ball bar.
 
     Parameters
     ----------
@@ -96,9 +97,10 @@ def level_circularity(result: Identification, traces: Sequence[Trace] | None = N
         Other traces than those measured.
     """
     runs = {run.name: run for run in result.test.runs}
-    radius = result.test.observations()[0].length
-    if not np.isfinite(radius):
+    setup = result.test.setup
+    if not isinstance(setup, LoadedBallBar):
         return {}
+    radius = setup.circle.radius
     found = {}
     for level in result.levels:
         paths: dict[int, Path] = {}

@@ -139,7 +139,10 @@ def keep_in_mind(result: Identification) -> list[str]:
     gains = [name for name in named if _GAIN.fullmatch(name)]
     if gains:
         verb, it = ("carries", "its sum") if len(gains) == 1 else ("carry", "their common part")
-        words.append(f"{listed(gains)} {verb} the error of the bar's length: {it} is as good as the bar's calibration.")
+        length, source = "bar's length", "bar's calibration"
+        if isinstance(result.test.setup, BallRoller):
+            length, source = "radius at which ball and roller touch", "radii"
+        words.append(f"{listed(gains)} {verb} the error of the {length}: {it} is as good as the {source}.")
     if isinstance(result.test.setup, LoadedBallBar):
         words.append(
             "Results are only as traceable as the force (its gauge, its calibration) and the bar calibration that were "
