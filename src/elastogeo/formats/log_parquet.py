@@ -22,16 +22,15 @@ from numpy.typing import NDArray
 from elastogeo.errors import FormatError
 from elastogeo.formats.log import Channel, Log, in_time_order
 from elastogeo.formats.log_files import LogFormat, register
+from elastogeo.formats.parquet_bytes import can_read, damaged, pyarrow_modules
 from elastogeo.formats.recording_files import (
     Gap,
     PartHead,
     RecordedChannel,
     Samples,
-    damaged,
     encode_part,
     head_of,
     part_files,
-    pyarrow_modules,
     read_table,
     said_gap,
     said_time,
@@ -52,11 +51,6 @@ _CLOCK = re.compile(
     rf"(?i:time(?:[ _]?stamp)?|t)(?: *[\[(](?P<unit>{'|'.join(_PER_SECOND)})[\])]|_(?P<tail>{'|'.join(_PER_SECOND)}))"
 )
 _BAD = np.uint32(0x80000000)
-
-
-def can_read(head: bytes) -> bool:
-    """Whether a file that begins with these bytes is Parquet."""
-    return head.startswith(b"PAR1")
 
 
 def read_parquet_log(data: bytes, source: str) -> Log:

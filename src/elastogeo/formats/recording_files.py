@@ -9,27 +9,23 @@ of earlier parts that its samples close. Needs `elastogeo[parquet]`.
 
 from __future__ import annotations
 
-import importlib
 import json
 import re
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
+from elastogeo.formats.parquet_bytes import damaged, opened_parquet, pyarrow_modules, unpacked
 
 SCHEMA = "elastogeo.recording/1"
 PART = re.compile(r"part-(\d{6,9})\.parquet", re.ASCII)
 
-_MAGIC = b"PAR1"
-_LEAST_VALUES = 10_000_000
-_VALUES_PER_BYTE = 12
 _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 
 
@@ -194,47 +190,8 @@ def read_table(data: bytes, source: str) -> Any:
     FormatError
         If the file is cut off or damaged, or unpacks to far more than its size, or pyarrow is not installed.
     """
-    if len(data) < 12 or not data.startswith(_MAGIC) or not data.endswith(_MAGIC):
-        raise FormatError(f"{source}: the Parquet file is cut off (no end mark PAR1); copy or export it again")
-    arrow, parquet = pyarrow_modules()
-    try:
-        file = parquet.ParquetFile(arrow.BufferReader(data), page_checksum_verification=True)
-        rows, columns = file.metadata.num_rows, file.metadata.num_columns
-    except (arrow.ArrowException, OSError, ValueError, MemoryError) as error:
-        raise damaged(source, error) from None
-    most = max(_LEAST_VALUES, _VALUES_PER_BYTE * len(data))
-    if rows * columns > most:
-        raise FormatError(
-            f"{source}: {len(data)} bytes claim to hold {rows * columns} values, at most {most} are unpacked; split it"
-        )
-    try:
-        table = file.read()
-        table.validate(full=True)
-    except (arrow.ArrowException, OSError, ValueError, MemoryError) as error:
-        raise damaged(source, error) from None
-    if table.num_rows != rows:
-        raise FormatError(f"{source}: promises {rows} rows, {table.num_rows} arrived; copy or export it again")
-    return table
-
-
-def pyarrow_modules() -> tuple[ModuleType, ModuleType]:
-    """The modules `pyarrow` and `pyarrow.parquet`.
-
-    Raises
-    ------
-    FormatError
-        If they are not installed.
-    """
-    try:
-        return importlib.import_module("pyarrow"), importlib.import_module("pyarrow.parquet")
-    except ImportError:
-        raise FormatError("Parquet files need pyarrow: pip install 'elastogeo[parquet]'") from None
-
-
-def damaged(source: str, error: Exception) -> FormatError:
-    """The error for a Parquet file that pyarrow refuses."""
-    reason = (str(error).splitlines() or ["no reason given"])[0]
-    return FormatError(f"{source}: the Parquet file is damaged ({reason}); copy or export it again")
+    file, _ = opened_parquet(data, source)
+    return unpacked(file, len(data), source, "values")
 
 
 def said_time(time: int) -> str:

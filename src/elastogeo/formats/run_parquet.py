@@ -2,28 +2,18 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Mapping
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from elastogeo.errors import FormatError
+from elastogeo.formats.parquet_bytes import can_read, opened_parquet, pyarrow_modules, unpacked
 from elastogeo.formats.run_files import RunFormat, register
 from elastogeo.formats.table import SHOWN, Column, Table, parse_headers, problems_error
 
 Array = NDArray[np.float64]
-
-_MAGIC = b"PAR1"
-_LEAST_VALUES = 10_000_000
-_VALUES_PER_BYTE = 12
-
-
-def can_read(head: bytes) -> bool:
-    """Whether a file that begins with these bytes is Parquet."""
-    return head.startswith(_MAGIC)
 
 
 def read_parquet(data: bytes, source: str) -> Table:
@@ -47,26 +37,11 @@ def read_parquet(data: bytes, source: str) -> Table:
         If the file is cut off or damaged, a column is not of numbers or has no unit, a reading is missing or not
         finite, the file unpacks to far more than its size, or pyarrow is not installed.
     """
-    if len(data) < 12 or not data.startswith(_MAGIC) or not data.endswith(_MAGIC):
-        raise FormatError(f"{source}: the Parquet file is cut off (no end mark PAR1); copy or export it again")
-    arrow, parquet = _pyarrow()
-    try:
-        file = parquet.ParquetFile(arrow.BufferReader(data), page_checksum_verification=True)
-        schema, shape = file.schema_arrow, file.metadata
-        names, types = list(schema.names), list(schema.types)
-        metadata = {_text(key): _text(value) for key, value in (schema.metadata or {}).items()}
-    except (arrow.ArrowException, OSError, ValueError, MemoryError) as error:
-        raise _damaged(source, error) from None
-    columns = parse_headers(names, source)
-    _check_types(columns, types, source)
-    _check_size(shape.num_rows * shape.num_columns, len(data), source)
-    try:
-        content = file.read()
-        content.validate(full=True)
-    except (arrow.ArrowException, OSError, ValueError, MemoryError) as error:
-        raise _damaged(source, error) from None
-    if content.num_rows != shape.num_rows:
-        raise FormatError(f"{source}: promises {shape.num_rows} rows, {content.num_rows} arrived; copy or export it again")
+    file, schema = opened_parquet(data, source)
+    metadata = {_text(key): _text(value) for key, value in (schema.metadata or {}).items()}
+    columns = parse_headers(list(schema.names), source)
+    _check_types(columns, list(schema.types), source)
+    content = unpacked(file, len(data), source, "readings")
     if not content.num_rows:
         raise FormatError(f"{source}: the Parquet file has no row of readings; export the run again")
     problems: list[str] = []
@@ -102,33 +77,15 @@ def write_parquet(columns: Mapping[str, ArrayLike], metadata: Mapping[str, str])
     parsed = parse_headers(list(columns), "columns to write")
     arrays = {c.header: np.asarray(columns[c.header], dtype=np.float64) for c in parsed}
     table = Table(arrays, metadata, "columns to write")
-    arrow, parquet = _pyarrow()
+    arrow, parquet = pyarrow_modules()
     content = arrow.table(dict(table.columns)).replace_schema_metadata(dict(table.metadata))
     sink = arrow.BufferOutputStream()
     parquet.write_table(content, sink, write_page_checksum=True)
     return bytes(sink.getvalue())
 
 
-def _pyarrow() -> tuple[ModuleType, ModuleType]:
-    try:
-        return importlib.import_module("pyarrow"), importlib.import_module("pyarrow.parquet")
-    except ImportError:
-        raise FormatError("Parquet files need pyarrow: pip install 'elastogeo[parquet]'") from None
-
-
-def _damaged(source: str, error: Exception) -> FormatError:
-    reason = (str(error).splitlines() or ["no reason given"])[0]
-    return FormatError(f"{source}: the Parquet file is damaged ({reason}); copy or export it again")
-
-
-def _check_size(values: int, size: int, source: str) -> None:
-    most = max(_LEAST_VALUES, _VALUES_PER_BYTE * size)
-    if values > most:
-        raise FormatError(f"{source}: {size} bytes claim to hold {values} readings, at most {most} are unpacked; split it")
-
-
 def _check_types(columns: list[Column], types: list[Any], source: str) -> None:
-    arrow, _ = _pyarrow()
+    arrow, _ = pyarrow_modules()
     for column, kind in zip(columns, types, strict=True):
         if not (arrow.types.is_integer(kind) or arrow.types.is_floating(kind)):
             raise FormatError(f"{source}: column {column.header} is of type {kind}; store it as numbers (float64)")
@@ -136,7 +93,7 @@ def _check_types(columns: list[Column], types: list[Any], source: str) -> None:
 
 def _numbers(column: Column, cells: Any, source: str) -> Array:
     """Values of one column, shape (m,), exactly as stored; a null becomes NaN."""
-    arrow, _ = _pyarrow()
+    arrow, _ = pyarrow_modules()
     try:
         values: Array = cells.cast(arrow.float64()).to_numpy()
     except arrow.ArrowInvalid:

@@ -228,7 +228,8 @@ def _shifted(systems: Systems, solution: Solution, effect: Effect, norms: Array)
 
 def _columns(systems: Systems, solution: Solution, effect: Effect, norms: Array) -> list[Array]:
     """Change of the design of every run, scaled like its columns, with the weights of its readings."""
-    chosen = [run.factor.labels.index(label) for run in systems.runs[:1] for label in solution.labels]
+    columns = systems.runs[0].factor.labels
+    chosen = [columns.index(label) for label in solution.labels]
     changes = (change[:, chosen] / norms for change in effect.columns or ())
     weights = (run.weights for run in systems.runs)
     return [c if w is None else c * w[:, np.newaxis] for c, w in zip(changes, weights, strict=False)]

@@ -12,7 +12,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from elastogeo.drive import ForceAgreement, ForceRecord, RigCheck, TorqueBalance, compare_forces, rig_check, with_rig
+from elastogeo.drive import (
+    ForceAgreement,
+    ForceRecord,
+    MotorParameter,
+    RigCheck,
+    TorqueBalance,
+    compare_forces,
+    motor_parameters,
+    rig_check,
+    with_rig,
+)
 from elastogeo.errors import DegreesOfFreedomError, InputError, UnsupportedError
 from elastogeo.estimate import solve, solve_by_run
 from elastogeo.identify.budget import SCATTER, Budget, uncertainty_budget
@@ -92,6 +102,12 @@ class StiffnessMap:
     dynamometer: ForceAgreement | None
     rig: RigCheck | None
     verdict: tuple[Check, ...]
+
+    @property
+    def motors(self) -> dict[str, tuple[MotorParameter, ...]]:
+        """The balances as the motors feel them, by axis (Table 6.4)."""
+        drives = {drive.axis: drive for drive in _roller_of(self.joints.test).drives}
+        return {axis: motor_parameters(balance, drives[axis]) for axis, balance in self.balances.items()}
 
 
 def stiffness_map(test: MachineTest, rig_test: MachineTest | None = None) -> StiffnessMap:
@@ -184,15 +200,18 @@ def _against_dynamometer(test: MachineTest, setup: BallRoller) -> tuple[ForceAgr
     Each goes once to and fro in a turn, so that the records align; where they do not, they are held against each other on
     the clock of the run.
     """
+    gauges = {"force_x": 0, "force_y": 1, "force_z": 2}
+    if not any(gauges.keys() & run.columns.keys() for run in test.runs):
+        return None, None
     pairs = []
     runs = {run.name: run for run in test.runs}
     for name, (track, contact) in setup.contacts(test.machine, test.runs).items():
         columns = runs[name].columns
-        for k, axis in enumerate("xyz"):
-            if f"force_{axis}" in columns:
-                gauge = np.interp(track.time, columns["time"], columns[f"force_{axis}"])
+        for gauge, k in gauges.items():
+            if gauge in columns:
+                measured = np.interp(track.time, columns["time"], columns[gauge])
                 own = contact.force * track.direction[:, k]
-                pairs.append((ForceRecord(track.time, own), ForceRecord(track.time, gauge)))
+                pairs.append((ForceRecord(track.time, own), ForceRecord(track.time, measured)))
     if not pairs:
         return None, None
     name = "force agrees with the dynamometer"

@@ -302,8 +302,7 @@ class BallRoller:
 
     def _loaded_record(self, machine: Machine, drive: FeedDrive, run: Run, track: Track) -> DriveRecord:
         """The record of a loaded run, with the direction pattern of its load (Eqs. 6.7, 6.8), which may go with the turn."""
-        push = np.column_stack([track.direction, np.zeros_like(track.direction)])
-        pattern = -joint_forces(machine, track.commands, push, [drive.axis], self._tool)[:, 0]
+        pattern = -joint_forces(machine, track.commands, track.push, [drive.axis], self._tool)[:, 0]
         level = f"load at {1000 * (run.engagement or 0.0):g} um"
         waves = {
             f"{level}, {name} {order}": pattern * wave(order * track.angle)
@@ -320,7 +319,6 @@ class BallRoller:
                 f"run {run.name!r}: the currents say that ball and roller lost contact near {angle:.0f} degrees "
                 f"({contact.force.min():.3g} N); engage them further, or look at the drives' constants and their sense"
             )
-        push = np.column_stack([track.direction, np.zeros_like(track.direction)])
         setup = setup_compliance(self.setup, run.engagement or 0.0, contact.force)
         correction = setup * contact.force
         observations = Observations(
@@ -331,15 +329,15 @@ class BallRoller:
             velocity=track.velocity,
             acceleration=track.acceleration,
             centre=self._centre(machine),
-            direction=push,
-            wrench=contact.force[:, np.newaxis] * push,
+            direction=track.push,
+            wrench=contact.force[:, np.newaxis] * track.push,
             reading=track.engagement - correction,
             correction=correction,
             tool=np.array(machine.tool) if self._tool is None else self._tool,
             workpiece=workpiece_ball(machine, self.circle.centre, self._tool),
             length=self.circle.radius - float(track.engagement.mean()),
             collinear=MEASURED_FORCE,
-            influences=observed_influences(contact, track.direction, setup, self.setup.standard_uncertainty),
+            influences=observed_influences(contact, track.push, setup, self.setup.standard_uncertainty),
         )
         return check_observations(observations)
 

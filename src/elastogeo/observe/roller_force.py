@@ -104,7 +104,7 @@ def contact_force(
 
 
 def observed_influences(
-    contact: ContactForce, direction: Array, setup_compliance: Array, setup_uncertainty: float | None
+    contact: ContactForce, push: Array, setup_compliance: Array, setup_uncertainty: float | None
 ) -> tuple[ObservedInfluence, ...]:
     """What is uncertain in drives and set-up, as it enters wrench and reading.
 
@@ -112,14 +112,13 @@ def observed_influences(
     ----------
     contact : ContactForce
         Along m samples.
-    direction : array, shape (m, 3)
-        Line of centres.
+    push : array, shape (m, 6)
+        Unit wrench of the ball on the roller.
     setup_compliance : array, shape (m,) [mm/N]
         By which the force takes the set-up's deflection off the reading.
     setup_uncertainty : float or None [mm/N]
         Standard uncertainty of that compliance.
     """
-    push = np.column_stack([direction, np.zeros_like(direction)])
     drives = tuple(
         ObservedInfluence(label, size, freedom, change[:, np.newaxis] * push, -setup_compliance * change)
         for label, size, freedom, change in contact.influences

@@ -47,6 +47,11 @@ class Track:
     direction: Array
     records: Mapping[str, DriveRecord]
 
+    @property
+    def push(self) -> Array:
+        """Unit wrench of the ball on the roller, and sensitive direction, shape (m, 6)."""
+        return np.column_stack([self.direction, np.zeros_like(self.direction)])
+
 
 def track_of(
     machine: Machine, run: Run, circle: Circle, drives: Sequence[FeedDrive], cutoff: float, tool: Array | None = None

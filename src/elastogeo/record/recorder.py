@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
-from elastogeo.formats.recording_files import Gap, pyarrow_modules
+from elastogeo.formats.parquet_bytes import pyarrow_modules
+from elastogeo.formats.recording_files import Gap
 from elastogeo.record.backlog import Backlog
 from elastogeo.record.filling import Filler
 from elastogeo.record.gaps import Follower, with_restart

@@ -13,7 +13,7 @@ from elastogeo.drive.balance import BalanceFit, usable
 from elastogeo.drive.terms import Motion
 from elastogeo.identify.drives import AxisDrive, DriveIdentification
 from elastogeo.report.extra import needs_report_extra
-from elastogeo.report.figures import FORMATS, figure_bytes
+from elastogeo.report.figures import FORMATS, save_drawn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -63,16 +63,7 @@ def drive_figures(result: DriveIdentification) -> dict[str, Figure]:
 
 def save_drive_figures(result: DriveIdentification, folder: str | Path, formats: Sequence[str] = FORMATS) -> list[Path]:
     """Save every figure of the drives as `<name>.<format>`; the same result gives the same bytes."""
-    drawn = drive_figures(result)
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    paths = []
-    for name, figure in drawn.items():
-        for kind in formats:
-            path = folder / f"{name}.{kind}"
-            path.write_bytes(figure_bytes(figure, kind))
-            paths.append(path)
-    return paths
+    return save_drawn(drive_figures(result), folder, formats)
 
 
 def _shown(found: AxisDrive) -> dict[str, BalanceFit]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -110,7 +110,11 @@ def save_figures(result: Identification, folder: str | Path, formats: Sequence[s
     unknown = [name for name in formats if name not in FORMATS]
     if unknown:
         raise InputError(f"figures cannot be saved as {', '.join(unknown)}; the formats are {', '.join(FORMATS)}")
-    drawn = figures(result)
+    return save_drawn(figures(result), folder, formats)
+
+
+def save_drawn(drawn: Mapping[str, Figure], folder: str | Path, formats: Sequence[str]) -> list[Path]:
+    """Save figures by name as `<name>.<format>` in a folder, which is made if it is not there; return the files in order."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     paths = []

@@ -16,7 +16,7 @@ from elastogeo.identify.static_line import Estimate, StaticLine
 from elastogeo.identify.static_test_result import Cartesian, LoadedPlace, LoadedRun, StaticResults, TwistRun
 from elastogeo.machine import Array
 from elastogeo.report.extra import needs_report_extra
-from elastogeo.report.figures import figure_bytes
+from elastogeo.report.figures import save_drawn
 from elastogeo.report.numbers import UNKNOWN, significant, value_with_uncertainty
 
 if TYPE_CHECKING:
@@ -250,13 +250,7 @@ def hysteresis_figure(found: StaticResults) -> Figure | None:
 def save_static(found: StaticResults, folder: str | Path) -> tuple[Path, ...]:
     """Save the loops as `hysteresis.svg` in a folder, which is made if it is not there; the path, or none without a loop."""
     figure = hysteresis_figure(found)
-    if figure is None:
-        return ()
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / "hysteresis.svg"
-    path.write_bytes(figure_bytes(figure, "svg"))
-    return (path,)
+    return () if figure is None else tuple(save_drawn({"hysteresis": figure}, folder, ("svg",)))
 
 
 def _panel(left: Axes, right: Axes, runs: Sequence[LoadedRun], place: LoadedPlace) -> None:

@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from elastogeo.drive import motor_parameters
 from elastogeo.estimate import coverage_factor
 from elastogeo.identify import Stiffness, StiffnessMap
-from elastogeo.observe import BallRoller
 from elastogeo.report.extra import needs_report_extra
-from elastogeo.report.figures import figure_bytes
+from elastogeo.report.figures import save_drawn
 from elastogeo.report.numbers import significant, value_with_uncertainty
 
 if TYPE_CHECKING:
@@ -78,11 +76,9 @@ def stiffness_rows(found: StiffnessMap) -> tuple[StiffnessRow, ...]:
 
 def balance_rows(found: StiffnessMap) -> tuple[BalanceRow, ...]:
     """The torque balances of the drives, as their motors feel them."""
-    setup = found.joints.test.setup
-    drives = {drive.axis: drive for drive in setup.drives} if isinstance(setup, BallRoller) else {}
     rows = []
-    for axis, balance in found.balances.items():
-        for parameter in motor_parameters(balance, drives[axis]):
+    for axis, parameters in found.motors.items():
+        for parameter in parameters:
             freedom = np.array([max(parameter.degrees_of_freedom, 1.0)])
             half = float(coverage_factor(freedom)[0]) * parameter.standard_uncertainty
             shown = value_with_uncertainty(parameter.value, half) if half else f"{parameter.value:g} (given)"
@@ -120,11 +116,7 @@ def stiffness_figure(found: StiffnessMap) -> Figure:
 
 def save_stiffness(found: StiffnessMap, folder: str | Path) -> Path:
     """Save the polar figure as `stiffness.svg` in a folder, which is made if it is not there; return its path."""
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / "stiffness.svg"
-    path.write_bytes(figure_bytes(stiffness_figure(found), "svg"))
-    return path
+    return save_drawn({"stiffness": stiffness_figure(found)}, folder, ("svg",))[0]
 
 
 def level_names(found: StiffnessMap) -> tuple[str, ...]:

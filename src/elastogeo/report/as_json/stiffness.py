@@ -18,9 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from elastogeo.drive import ForceAgreement, RigCheck, motor_parameters
+from elastogeo.drive import ForceAgreement, RigCheck
 from elastogeo.identify import Stiffness, StiffnessMap
-from elastogeo.observe import BallRoller
 from elastogeo.report.as_json.envelope import UM, document, tested, verdict_entries
 from elastogeo.report.as_json.identification import identification_json
 
@@ -29,8 +28,6 @@ STIFFNESS_SCHEMA = "elastogeo.stiffness/1"
 
 def stiffness_json(found: StiffnessMap) -> dict[str, Any]:
     """A stiffness map as one JSON object (`elastogeo.stiffness/1`)."""
-    setup = found.joints.test.setup
-    drives = {drive.axis: drive for drive in setup.drives} if isinstance(setup, BallRoller) else {}
     return document(
         STIFFNESS_SCHEMA,
         {
@@ -46,8 +43,8 @@ def stiffness_json(found: StiffnessMap) -> dict[str, Any]:
                     "degrees_of_freedom": parameter.degrees_of_freedom,
                     "unit": parameter.unit,
                 }
-                for axis, balance in found.balances.items()
-                for parameter in motor_parameters(balance, drives[axis])
+                for axis, parameters in found.motors.items()
+                for parameter in parameters
             ],
             "dynamometer": None if found.dynamometer is None else _dynamometer(found.dynamometer),
             "rig": None if found.rig is None else _rig(found.rig, found.overall),
