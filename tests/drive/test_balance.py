@@ -9,8 +9,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from elastogeo.drive import BalanceFit, DriveRecord, TorqueBalance, TorqueModel, identify_balance
-from elastogeo.drive.balance import usable
 from elastogeo.drive.differentiator import differentiate
+from elastogeo.drive.model import usable
 from elastogeo.errors import InputError, RankError
 
 RATIO = 10 / (2 * np.pi)

@@ -35,10 +35,9 @@ def drive(
 
     from elastogeo.cli import screen
     from elastogeo.cli.drive_screen import show_drives
-    from elastogeo.formats.drive_files import read_drives
-    from elastogeo.identify.drives import identify_drives
-    from elastogeo.report.as_json.drive import drive_json
-    from elastogeo.report.drive_figures import save_drive_figures
+    from elastogeo.formats import read_drives
+    from elastogeo.identify import identify_drives
+    from elastogeo.report import drive_json, save_drive_figures
 
     with screen.progress("reading the logs", quiet=as_json) as step:
         test = read_drives(logs, tuple(axis or ()), tuple(held_out or ()))

@@ -13,10 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from elastogeo.drive.model import Mask as Mask
-from elastogeo.drive.model import TorqueModel as TorqueModel
-from elastogeo.drive.model import motion_columns as motion_columns
-from elastogeo.drive.model import usable as usable
+from elastogeo.drive.model import Mask, TorqueModel, motion_columns, usable
 from elastogeo.drive.records import DriveRecord
 from elastogeo.drive.separation import advice, named, standstill
 from elastogeo.errors import DegreesOfFreedomError, InputError, RankError
@@ -240,8 +237,7 @@ def identify_balance(
     """
     model, known = model or TorqueModel(), known or {}
     check_records(records, model, known)
-    masks = list(chosen) if chosen is not None else [usable(record, model) for record in records]
-    check_alive(records, masks, model)
+    masks = live_masks(records, model, chosen)
     rows = design_rows(records, model, known, masks)
     labels = free_labels(records, model, known)
     factor = merge(*factors_of(rows, labels))
@@ -360,6 +356,19 @@ def check_records(records: Sequence[DriveRecord], model: TorqueModel, known: Map
         raise InputError("a known parameter is no finite number")
     if not set(labels) - set(known):
         raise InputError("all parameters are known; nothing is left to identify")
+
+
+def live_masks(records: Sequence[DriveRecord], model: TorqueModel, chosen: Sequence[Mask] | None) -> list[Mask]:
+    """Samples to use of each record, as chosen or all that are usable, of a drive that is alive.
+
+    Raises
+    ------
+    RankError
+        If the effort or the motion is nothing.
+    """
+    masks = list(chosen) if chosen is not None else [usable(record, model) for record in records]
+    check_alive(records, masks, model)
+    return masks
 
 
 def check_alive(records: Sequence[DriveRecord], masks: Sequence[Mask], model: TorqueModel) -> None:

@@ -21,9 +21,7 @@ from scipy.special import fdtri
 
 from elastogeo.drive.balance import (
     BalanceFit,
-    Mask,
     Searched,
-    TorqueModel,
     check_alive,
     check_records,
     design_rows,
@@ -32,8 +30,8 @@ from elastogeo.drive.balance import (
     identify_balance,
     load_names,
     solved,
-    usable,
 )
+from elastogeo.drive.model import Mask, TorqueModel, usable
 from elastogeo.drive.records import DriveRecord
 from elastogeo.errors import InputError, RankError
 from elastogeo.estimate import Factor, merge

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from elastogeo.drive.balance import TorqueModel
 from elastogeo.drive.feed_drive import FeedDrive
+from elastogeo.drive.model import TorqueModel
 from elastogeo.drive.records import DriveRecord
 from elastogeo.errors import InputError
 

@@ -10,16 +10,14 @@ import numpy as np
 from elastogeo.drive.balance import (
     COLLINEAR,
     BalanceFit,
-    Mask,
-    TorqueModel,
-    check_alive,
     check_records,
     design_rows,
     factors_of,
     free_labels,
+    live_masks,
     load_names,
-    usable,
 )
+from elastogeo.drive.model import Mask, TorqueModel, usable
 from elastogeo.drive.records import DriveRecord
 from elastogeo.drive.search import Search, lowest, make_search
 from elastogeo.errors import RankError
@@ -116,7 +114,7 @@ def predict(fit: BalanceFit, records: Sequence[DriveRecord], masks: Sequence[Mas
         If the balance is not determined, or a run has a load that was not identified.
     """
     balance = fit.balance
-    loads = dict(zip(fit.solution.labels, fit.solution.values.tolist(), strict=True)) | dict(fit.known)
+    loads = _loads(fit)
     strangers = [name for name in load_names(records) if name not in loads]
     if strangers:
         run = next(record.run for record in records if strangers[0] in record.disturbance)
@@ -126,8 +124,7 @@ def predict(fit: BalanceFit, records: Sequence[DriveRecord], masks: Sequence[Mas
     scores = []
     for k, record in enumerate(records):
         mask = usable(record, fit.model) if masks is None else masks[k]
-        load = sum((loads[name] * pattern for name, pattern in record.disturbance.items()), np.zeros(len(record.time)))
-        scores.append(_score(record.run, record.effort[mask], (balance.effort(record) + load)[mask]))
+        scores.append(_score(record.run, record.effort[mask], (balance.effort(record) + _load(record, loads))[mask]))
     return tuple(scores)
 
 
@@ -154,11 +151,7 @@ def leave_one_run_out(
     known = known or {}
     check_records(records, model, known)
     made = (search or make_search(records, model, searched, known, chosen)) if searched else None
-    if made:
-        masks = made.masks
-    else:
-        masks = list(chosen) if chosen is not None else [usable(record, model) for record in records]
-        check_alive(records, masks, model)
+    masks = made.masks if made else live_masks(records, model, chosen)
     if len(records) < 2:
         raise RankError(f"axis {records[0].axis}: one run alone cannot be left out; record another")
     labels = free_labels(records, model, known)
@@ -185,13 +178,12 @@ def leave_one_run_out(
 def structure(fit: BalanceFit, records: Sequence[DriveRecord], masks: Sequence[Mask] | None = None) -> Structure:
     """What structure the residuals of a determined balance have left."""
     balance = fit.balance
-    loads = dict(zip(fit.solution.labels, fit.solution.values.tolist(), strict=True)) | dict(fit.known)
+    loads = _loads(fit)
     products, squares, pairs = 0.0, 0.0, 0.0
     residuals, speeds, flips = [], [], 0
     for k, record in enumerate(records):
         mask = usable(record, fit.model) if masks is None else masks[k]
-        load = sum((loads[name] * pattern for name, pattern in record.disturbance.items()), np.zeros(len(record.time)))
-        residual = balance.disturbance(record) - load
+        residual = balance.disturbance(record) - _load(record, loads)
         lag, independent = _lag(record)
         both = mask[lag:] & mask[:-lag]
         products += float(np.sum((residual[lag:] * residual[:-lag])[both]))
@@ -213,6 +205,16 @@ def structure(fit: BalanceFit, records: Sequence[DriveRecord], masks: Sequence[M
         rms=_rms(left),
         flips=flips / len(left),
     )
+
+
+def _loads(fit: BalanceFit) -> dict[str, float]:
+    """What was identified or known, by name; the loads are among it."""
+    return dict(zip(fit.solution.labels, fit.solution.values.tolist(), strict=True)) | dict(fit.known)
+
+
+def _load(record: DriveRecord, loads: Mapping[str, float]) -> Array:
+    """Effort that the loads of a run take, shape (m,)."""
+    return sum((loads[name] * pattern for name, pattern in record.disturbance.items()), np.zeros(len(record.time)))
 
 
 def _lag(record: DriveRecord) -> tuple[int, float]:

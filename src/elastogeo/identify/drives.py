@@ -13,8 +13,8 @@ import numpy as np
 from scipy.special import stdtrit
 
 from elastogeo.drive import DriveRecord, FeedDrive, TorqueModel
-from elastogeo.drive.balance import BalanceFit, Mask, free_labels
-from elastogeo.drive.model import PLAIN
+from elastogeo.drive.balance import BalanceFit, free_labels
+from elastogeo.drive.model import PLAIN, Mask
 from elastogeo.drive.search import make_search, ranges_of, search_balance, shared_masks
 from elastogeo.drive.trial import DriveTest
 from elastogeo.drive.validation import LeftOut, RunScore, Structure, leave_one_run_out, predict, structure
