@@ -10,7 +10,7 @@ import numpy as np
 from elastogeo.drive import DriveRecord
 from elastogeo.drive.validation import RunScore, Structure
 from elastogeo.identify.check import Check
-from elastogeo.identify.verdict import CONDITION_LIMIT
+from elastogeo.identify.verdict import conditioned
 from elastogeo.machine import Array
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def drive_verdict(found: AxisDrive, records: Sequence[DriveRecord]) -> tuple[Che
     checks = [
         Check("identifiable", True, f"All {count} parameters are determined by the records.", decisive=True),
         _possible(found),
-        _conditioned(fit.confounding.condition_scaled),
+        conditioned(fit.confounding, "record more feeds and accelerations, in both directions"),
         _counted(fit.counted, sum(count > 0 for count in fit.samples.values())),
     ]
     if found.held_out:
@@ -101,17 +101,6 @@ def _possible(found: AxisDrive) -> Check:
         False,
         f"{', '.join(below)} is negative, and its interval excludes zero. No drive moves by its own friction or inertia: "
         f"check the sign of the effort, or the terms of the model.",
-    )
-
-
-def _conditioned(condition: float) -> Check:
-    good = condition <= CONDITION_LIMIT
-    advice = "" if good else "; record more feeds and accelerations, in both directions"
-    return Check(
-        "conditioned",
-        good,
-        f"The scaled condition number is {condition:.3g}, {'below' if good else 'above'} the limit of "
-        f"{CONDITION_LIMIT:g}{advice}.",
     )
 
 

@@ -34,10 +34,10 @@ def identifiable(found: Confounding) -> Check:
     )
 
 
-def conditioned(found: Confounding) -> Check:
-    """Whether the retained parameters are far enough from one another."""
+def conditioned(found: Confounding, remedy: str = "add force levels further apart, or another plane") -> Check:
+    """Whether the retained parameters are far enough from one another; if not, what would help."""
     good = found.condition_scaled <= CONDITION_LIMIT
-    advice = "" if good else "; add force levels further apart, or another plane"
+    advice = "" if good else f"; {remedy}"
     return Check(
         "conditioned",
         good,
