@@ -11,9 +11,9 @@ import pytest
 
 from elastogeo.machine import Array, Joint, Machine, parse_topology
 from elastogeo.observe import Circle, LoadedBallBar, MachineTest, Question, Run, Setup, instruments
-from elastogeo.observe.probes import DisplacementProbes
-from elastogeo.observe.sensor_frame import Sensor, SensorFrame
-from elastogeo.observe.static_force import StaticForce
+from elastogeo.observe.static_loads.probes import DisplacementProbes
+from elastogeo.observe.static_loads.sensor_frame import Sensor, SensorFrame
+from elastogeo.observe.static_loads.static_force import StaticForce
 
 TILTED = ((1.0, 1.0, 0.0), (1.0, -1.0, 3.0))
 

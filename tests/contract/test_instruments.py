@@ -18,7 +18,7 @@ from scipy import stats
 
 from elastogeo.errors import RankError, UnsupportedError
 from elastogeo.estimate import factor_blocks, solve
-from elastogeo.identify import Identification, confounding_of, identify, merged, noise_of, systems_of
+from elastogeo.identification import Identification, confounding_of, identify, merged, noise_of, systems_of
 from elastogeo.machine import Array
 from elastogeo.observe import Imperfection, MachineTest, Observations, instruments
 from elastogeo.sources import (

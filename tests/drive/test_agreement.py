@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.signal import lfilter
 
-from elastogeo.drive.agreement import ForceRecord, compare_forces, find_delay
+from elastogeo.drive.force_agreement import ForceRecord, compare_forces, find_delay
 from elastogeo.errors import DegreesOfFreedomError, InputError, UnsupportedError
 from elastogeo.machine import Array
 

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 from elastogeo.drive import DriveRecord, TorqueModel, identify_balance, smoothed
 from elastogeo.drive.model import PLAIN, usable
-from elastogeo.drive.search import make_search, search_balance
+from elastogeo.drive.nonlinear import make_search, search_balance
 from elastogeo.drive.validation import leave_one_run_out, predict, structure
 from elastogeo.errors import InputError, RankError
 

@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from elastogeo.errors import FormatError
-from elastogeo.formats.run_csv import can_read, read_csv, read_csv_runs
 from elastogeo.formats.run_files import read_run_bytes
+from elastogeo.formats.runs.csv import can_read, read_csv, read_csv_runs
 
 FIVE = "1.5\n-2.5\n0.25\n4\n1.5\n"
 RADIAL = [value / 1000 for value in (1.5, -2.5, 0.25, 4.0, 1.5)]

@@ -6,7 +6,7 @@ import pytest
 
 from elastogeo.errors import FormatError, InputError
 from elastogeo.formats import find_machine, read_machine, read_simulation, read_test, shipped_machines
-from elastogeo.formats.documents import build, read_document
+from elastogeo.formats.text.toml_documents import build, read_document
 from elastogeo.observe import Calibration, Circle, LoadedBallBar
 
 CIRCLE = {"radius_mm": 150, "centre": {"X_mm": 1, "A_deg": 90}}

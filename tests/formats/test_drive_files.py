@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 from elastogeo.drive import identify_balance
 from elastogeo.errors import FormatError, InputError
-from elastogeo.formats.drive_files import read_drives
+from elastogeo.formats.documents.feed_drives import read_drives
 
 STEP = 0.002
 

@@ -8,7 +8,7 @@ import pytest
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.log import Log
-from elastogeo.formats.log_csv import can_read, read_csv_log
+from elastogeo.formats.logs.csv import can_read, read_csv_log
 
 MILL = Path(__file__).parents[3] / "shared" / "data" / "umich-cnc-mill"
 GOOD = "time_ms,position_x_mm,current_x_A\n0,1.5,0.25\n2,-2.5,0.5\n"

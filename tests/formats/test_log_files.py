@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 
 from elastogeo.errors import FormatError
 from elastogeo.formats import by_content, log_files
-from elastogeo.formats.by_content import HEAD
 from elastogeo.formats.log import Channel, Log, in_time_order
 from elastogeo.formats.log_files import LogFormat, log_formats, read_log, read_log_bytes, register
 from elastogeo.formats.run_files import run_formats
-from elastogeo.formats.units import UNITS
+from elastogeo.formats.text.by_content import HEAD
+from elastogeo.formats.text.units import UNITS
 
 FORMATS = list(log_formats().values())
 each_format = pytest.mark.parametrize("log_format", FORMATS, ids=lambda f: f.name)

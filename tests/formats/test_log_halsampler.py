@@ -3,7 +3,7 @@ import pytest
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.log_files import read_log_bytes
-from elastogeo.formats.log_halsampler import can_read, read_halsampler
+from elastogeo.formats.logs.halsampler import can_read, read_halsampler
 
 TAGGED = b"".join(b"%d %.6f %d \n" % (n, n / 8, n % 2) for n in range(20))
 PLAIN = b"0.125000 1 -7 \n0.250000 0 -7 \n"

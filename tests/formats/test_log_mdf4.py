@@ -11,7 +11,7 @@ from asammdf import MDF, Signal
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.log_files import log_formats, read_log_bytes
-from elastogeo.formats.log_mdf4 import can_read, read_mdf4
+from elastogeo.formats.logs.mdf4 import can_read, read_mdf4
 
 TIME = np.array([0.0, 0.001, 0.002, 0.003])
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from elastogeo.errors import FormatError
-from elastogeo.formats.elements import MAX_ELEMENTS
 from elastogeo.formats.log_files import read_log_bytes
-from elastogeo.formats.log_mtconnect import can_read, read_mtconnect
-from elastogeo.formats.mtconnect_observations import MAX_ITEMS
+from elastogeo.formats.logs.mtconnect import can_read, read_mtconnect
+from elastogeo.formats.logs.mtconnect_observations import MAX_ITEMS
+from elastogeo.formats.text.xml_elements import MAX_ELEMENTS
 
 
 def observation(

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from elastogeo.errors import FormatError
-from elastogeo.formats.log_parquet import _sample, can_read, read_parquet_log, read_recording
+from elastogeo.formats.logs.parquet import _sample, can_read, read_parquet_log, read_recording
 from elastogeo.formats.recording_files import (
     Gap,
     PartHead,

@@ -5,7 +5,7 @@ import pytest
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.log_files import read_log_bytes
-from elastogeo.formats.log_shdr import can_read, read_shdr
+from elastogeo.formats.logs.shdr import can_read, read_shdr
 
 DAY = "2026-01-31T12:00:"
 

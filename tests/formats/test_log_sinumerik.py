@@ -8,7 +8,7 @@ import pytest
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.log import Log
-from elastogeo.formats.log_sinumerik import can_read, read_sinumerik
+from elastogeo.formats.logs.sinumerik import can_read, read_sinumerik
 
 SIGNALS = (("CYCLE", "Cycle"), ("ENC_POS|1", "X1"), ("CURRENT|1", "X1"))
 

@@ -12,7 +12,7 @@ import pytest
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.log_files import log_formats, read_log_bytes
-from elastogeo.formats.log_tdms import can_read, read_tdms
+from elastogeo.formats.logs.tdms import can_read, read_tdms
 
 CLOCK = {"wf_increment": 0.002, "wf_start_offset": 0.5}
 

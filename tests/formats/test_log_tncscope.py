@@ -5,7 +5,7 @@ import pytest
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.log_files import read_log_bytes
-from elastogeo.formats.log_tncscope import can_read, read_tncscope
+from elastogeo.formats.logs.tncscope import can_read, read_tncscope
 
 KNOWN = ("i ist", "X", "A", 4, 600)
 

@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from elastogeo.errors import FormatError
-from elastogeo.formats.elements import read_elements
-from elastogeo.formats.run_b5r import can_read, read_b5r, read_b5r_runs
 from elastogeo.formats.run_files import read_run, read_run_bytes, run_formats
+from elastogeo.formats.runs.b5r import can_read, read_b5r, read_b5r_runs
+from elastogeo.formats.text.xml_elements import read_elements
 
 ARC = "<START_ANGLE>0</START_ANGLE><END_ANGLE>360</END_ANGLE>"
 SETUP = "<NOMINAL_LENGTH>150</NOMINAL_LENGTH><PROGRAMMED_FEEDRATE>1500</PROGRAMMED_FEEDRATE>"

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from elastogeo.errors import FormatError
-from elastogeo.formats.run_csv import can_read, read_csv, write_csv
-from elastogeo.formats.units import to_internal
+from elastogeo.formats.runs.csv import can_read, read_csv, write_csv
+from elastogeo.formats.text.units import to_internal
 
 FINITE = st.floats(allow_nan=False, allow_infinity=False, width=64)
 GOOD = "angle_deg,radial_um\n0,1.5\n90,-2.5\n"

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from elastogeo.errors import FormatError
 from elastogeo.formats import by_content, run_files
-from elastogeo.formats.by_content import HEAD
 from elastogeo.formats.run_files import RunFormat, read_run, read_run_bytes, register, run_formats
-from elastogeo.formats.table import Table
+from elastogeo.formats.text.by_content import HEAD
+from elastogeo.formats.text.table import Table
 
 FORMATS = list(run_formats().values())
 each_format = pytest.mark.parametrize("run_format", FORMATS, ids=lambda f: f.name)

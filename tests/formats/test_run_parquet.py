@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from elastogeo.errors import FormatError
-from elastogeo.formats.run_parquet import can_read, read_parquet, write_parquet
-from elastogeo.formats.units import to_internal
+from elastogeo.formats.runs.parquet import can_read, read_parquet, write_parquet
+from elastogeo.formats.text.units import to_internal
 
 FINITE = st.floats(allow_nan=False, allow_infinity=False, width=64)
 

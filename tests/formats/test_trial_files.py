@@ -17,7 +17,7 @@ from elastogeo.formats import (
     write_new_test,
     write_runs,
 )
-from elastogeo.formats.trial_files import read_test_document
+from elastogeo.formats.documents.machine_tests import read_test_document
 from elastogeo.sources import simulate
 
 

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from elastogeo.errors import FormatError
-from elastogeo.formats.units import UNITS, check_unit, from_internal, split_unit, to_internal
+from elastogeo.formats.text.units import UNITS, check_unit, from_internal, split_unit, to_internal
 
 
 @pytest.mark.parametrize(

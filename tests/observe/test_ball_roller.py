@@ -10,8 +10,8 @@ from numpy.testing import assert_allclose
 
 from elastogeo.drive import FeedDrive, KnownBalance, SetupCompliance
 from elastogeo.errors import InputError, RankError, UnsupportedError
-from elastogeo.identify import identify, uncertainty_budget
-from elastogeo.identify.identification import effects_of, systems_of
+from elastogeo.identification import identify, uncertainty_budget
+from elastogeo.identification.identification import effects_of, systems_of
 from elastogeo.machine import Joint, Machine, parse_topology
 from elastogeo.observe import BallRoller, Circle, Imperfection, MachineTest, Question, Rig, Run
 from elastogeo.sources import simulate

@@ -10,15 +10,15 @@ from numpy.testing import assert_allclose
 
 from elastogeo.errors import InputError
 from elastogeo.formats import poses_of, read_simulation, read_test
-from elastogeo.identify import identify
-from elastogeo.identify.cartesian_stiffness import cartesian_of
-from elastogeo.identify.hysteresis import hysteresis
-from elastogeo.identify.static_line import static_line
+from elastogeo.identification import identify
+from elastogeo.identification.static_tests.cartesian import cartesian_of
+from elastogeo.identification.static_tests.hysteresis import hysteresis
+from elastogeo.identification.static_tests.straight_line import static_line
 from elastogeo.machine import Machine, parse_topology
 from elastogeo.observe import MachineTest, Run
-from elastogeo.observe.sensor_frame import SensorFrame
-from elastogeo.observe.sensor_twist import sensor_twist
-from elastogeo.observe.static_force import StaticForce
+from elastogeo.observe.static_loads.sensor_frame import SensorFrame
+from elastogeo.observe.static_loads.sensor_twist import sensor_twist
+from elastogeo.observe.static_loads.static_force import StaticForce
 from elastogeo.sources import simulate
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"

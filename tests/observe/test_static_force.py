@@ -10,10 +10,10 @@ import pytest
 from numpy.testing import assert_allclose
 
 from elastogeo.errors import InputError
-from elastogeo.identify import identify
+from elastogeo.identification import identify
 from elastogeo.machine import Machine
 from elastogeo.observe import Imperfection, MachineTest, Question, Run
-from elastogeo.observe.static_force import StaticForce
+from elastogeo.observe.static_loads.static_force import StaticForce
 from elastogeo.sources import exact_response, linear_response, parameter_values, select_sources, simulate
 
 MakeMachine = Callable[..., Machine]

@@ -9,11 +9,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from elastogeo.errors import InputError, RankError
-from elastogeo.identify import identify
-from elastogeo.identify.cartesian_stiffness import cartesian_of
+from elastogeo.identification import identify
+from elastogeo.identification.static_tests.cartesian import cartesian_of
 from elastogeo.machine import Machine, loop_frames
 from elastogeo.observe import Imperfection, MachineTest, Question, Run
-from elastogeo.observe.probes import DisplacementProbes
+from elastogeo.observe.static_loads.probes import DisplacementProbes
 from elastogeo.sources import select_sources, simulate
 
 MakeMachine = Callable[..., Machine]

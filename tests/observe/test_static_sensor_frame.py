@@ -11,11 +11,11 @@ from scipy import stats
 from scipy.spatial.transform import Rotation
 
 from elastogeo.errors import InputError, RankError
-from elastogeo.identify import identify
+from elastogeo.identification import identify
 from elastogeo.machine import Machine
 from elastogeo.observe import MachineTest, Question, Run
-from elastogeo.observe.sensor_frame import Sensor, SensorFrame, sensitivities
-from elastogeo.observe.sensor_twist import check_sees_twist, sensor_twist
+from elastogeo.observe.static_loads.sensor_frame import Sensor, SensorFrame, sensitivities
+from elastogeo.observe.static_loads.sensor_twist import check_sees_twist, sensor_twist
 from elastogeo.sources import exact_response, linear_response, parameter_values, select_sources, simulate
 
 MakeMachine = Callable[..., Machine]

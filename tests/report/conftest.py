@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from elastogeo.identify import identify
+from elastogeo.identification import identify
 from elastogeo.observe import Imperfection, KnownInfluence, Question
 from elastogeo.sources import simulate
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import elastogeo
-from elastogeo.identify import compare_tests, diagnose, what_if
+from elastogeo.identification import compare_tests, diagnose, what_if
 from elastogeo.report import (
     comparison_json,
     confounding_json,

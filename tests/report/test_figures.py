@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from elastogeo.errors import InputError
-from elastogeo.identify import diagnose
+from elastogeo.identification import diagnose
 from elastogeo.report import MissingExtraError, figures, parameter_rows, save_figures
 from elastogeo.report.figures import inline_svg
 from elastogeo.report.style import force_colours, nice_step, thinned

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from elastogeo.identify import compare_tests, diagnose, what_if
+from elastogeo.identification import compare_tests, diagnose, what_if
 from elastogeo.report import comparison_rows, diagnosis_of, diagnosis_rows, parameter_rows, what_if_rows
 from elastogeo.report.text import UNTOLD
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from elastogeo.formats import read_test
-from elastogeo.identify.static_test import static_results
-from elastogeo.identify.static_test_result import StaticResults
+from elastogeo.identification.static_tests.assessment import static_results
+from elastogeo.identification.static_tests.result import StaticResults
 from elastogeo.machine import Machine, parse_topology
 from elastogeo.observe import MachineTest, Question, Run, StaticForce
 from elastogeo.report.as_json.static import STATIC_SCHEMA, static_json

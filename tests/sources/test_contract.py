@@ -13,7 +13,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from elastogeo.estimate import Confounding, solve
-from elastogeo.identify import Systems, confounding_of, identify, merged, systems_of, with_question
+from elastogeo.identification import Systems, confounding_of, identify, merged, systems_of, with_question
 from elastogeo.machine import Array, Joint, Machine, parse_topology
 from elastogeo.observe import Circle, Imperfection, LoadedBallBar, MachineTest, Question, Run
 from elastogeo.sources import PRESETS, families, select_sources, simulate

@@ -30,7 +30,7 @@ def brbd(
     from elastogeo.cli import screen
     from elastogeo.cli.stiffness_screen import show_stiffness
     from elastogeo.formats import read_test
-    from elastogeo.identify import stiffness_map
+    from elastogeo.identification import stiffness_map
     from elastogeo.report import save_stiffness, stiffness_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:

@@ -25,7 +25,7 @@ def compare(
     """
     from elastogeo.cli import screen
     from elastogeo.formats import read_test
-    from elastogeo.identify import compare_tests, identify, with_question
+    from elastogeo.identification import compare_tests, identify, with_question
     from elastogeo.report import comparison_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:

@@ -28,7 +28,7 @@ def confounding(
     """
     from elastogeo.cli import screen
     from elastogeo.formats import full_turn, read_test
-    from elastogeo.identify import confounding_of, systems_of, what_reciprocity_buys, with_question
+    from elastogeo.identification import confounding_of, systems_of, what_reciprocity_buys, with_question
     from elastogeo.report import confounding_json
 
     planned_test = read_test(test, full_turn(planned)) if planned else read_test(test)

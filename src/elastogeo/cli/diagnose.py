@@ -29,8 +29,8 @@ def diagnose(
     """
     from elastogeo.cli import screen
     from elastogeo.formats import read_test
-    from elastogeo.identify import diagnose as diagnosed
-    from elastogeo.identify import identify, with_question
+    from elastogeo.identification import diagnose as diagnosed
+    from elastogeo.identification import identify, with_question
     from elastogeo.report import diagnosis_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:

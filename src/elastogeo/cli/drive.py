@@ -36,7 +36,7 @@ def drive(
     from elastogeo.cli import screen
     from elastogeo.cli.drive_screen import show_drives
     from elastogeo.formats import read_drives
-    from elastogeo.identify import identify_drives
+    from elastogeo.identification import identify_drives
     from elastogeo.report import drive_json, save_drive_figures
 
     with screen.progress("reading the logs", quiet=as_json) as step:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from elastogeo.cli import screen
-from elastogeo.identify.drives import AxisDrive, DriveIdentification
-from elastogeo.report.drive_text import (
+from elastogeo.identification.feed_drives import AxisDrive, DriveIdentification
+from elastogeo.report import (
     drive_rows,
     model_rows,
     note_sentences,

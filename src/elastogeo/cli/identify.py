@@ -41,8 +41,8 @@ def identify(
     """
     from elastogeo.cli import screen
     from elastogeo.formats import read_test
-    from elastogeo.identify import identify as identified
-    from elastogeo.identify import with_question
+    from elastogeo.identification import identify as identified
+    from elastogeo.identification import with_question
     from elastogeo.report import identification_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from elastogeo.identify import Check
+    from elastogeo.identification import Check
 
 TestPath = Annotated[Path, typer.Argument(metavar="TEST", help="A folder with a test.toml, or a test file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]

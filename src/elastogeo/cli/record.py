@@ -17,7 +17,7 @@ from elastogeo.cli.options import AsJson
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
-    from elastogeo.record import Watcher
+    from elastogeo.recording import Watcher
 
 PASSWORD = "ELASTOGEO_OPCUA_PASSWORD"
 
@@ -59,8 +59,8 @@ def record(
       elastogeo record recording.toml -o monday --duration 3600
     """
     from elastogeo.cli import screen
-    from elastogeo.record import planned, recording_json, recording_lines
-    from elastogeo.record import record as recorded
+    from elastogeo.recording import planned, recording_json, recording_lines
+    from elastogeo.recording import record as recorded
 
     sampling = None if sampling_ms is None else sampling_ms / 1000
     plan = planned(server, node or (), sampling=sampling, batch=batch_s, user=user, security=security)

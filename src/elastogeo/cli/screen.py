@@ -14,7 +14,7 @@ from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from elastogeo.estimate import Confounding
-from elastogeo.identify import BeforeAfter, Check, Diagnosis, Identification, WhatIf
+from elastogeo.identification import BeforeAfter, Check, Diagnosis, Identification, WhatIf
 from elastogeo.machine import Machine
 from elastogeo.report import (
     combination,

@@ -31,9 +31,9 @@ def static(
     from elastogeo.cli import screen
     from elastogeo.cli.static_screen import show_static
     from elastogeo.formats import read_test
-    from elastogeo.identify.static_test import static_results
-    from elastogeo.report.as_json.static import static_json
-    from elastogeo.report.static import save_static
+    from elastogeo.identification.static_tests import static_results
+    from elastogeo.report import save_static
+    from elastogeo.report.as_json import static_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
         asked = read_test(test)

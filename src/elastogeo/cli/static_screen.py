@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from elastogeo.cli import screen
-from elastogeo.identify.static_test_result import StaticResults
-from elastogeo.report import parameter_rows
-from elastogeo.report.static import static_tables
+from elastogeo.identification.static_tests import StaticResults
+from elastogeo.report import parameter_rows, static_tables
 
 
 def show_static(found: StaticResults) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from elastogeo.cli import screen
-from elastogeo.identify import StiffnessMap
+from elastogeo.identification import StiffnessMap
 from elastogeo.report import balance_rows, level_names, stiffness_rows
 
 

@@ -26,7 +26,7 @@ def whatif(
     """
     from elastogeo.cli import screen
     from elastogeo.formats import read_test
-    from elastogeo.identify import identify, what_if, with_question
+    from elastogeo.identification import identify, what_if, with_question
     from elastogeo.report import what_if_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:

@@ -1,7 +1,6 @@
 """Feed drives: motor current -> torque -> force at the joint -> at the tool. Stands on `machine`, `estimate`, `errors`."""
 
-from elastogeo.drive.agreement import Delay, ForceAgreement, ForceRecord, compare_forces, find_delay
-from elastogeo.drive.balance import BalanceFit, TorqueBalance, identify_balance
+from elastogeo.drive.balance import BalanceFit, Searched, TorqueBalance, free_labels, identify_balance, units_of
 from elastogeo.drive.differentiator import Derivatives, differentiate, gain, smoothed
 from elastogeo.drive.feed_drive import (
     FeedDrive,
@@ -10,6 +9,7 @@ from elastogeo.drive.feed_drive import (
     effort_from_force,
     force_from_effort,
 )
+from elastogeo.drive.force_agreement import Delay, ForceAgreement, ForceRecord, compare_forces, find_delay
 from elastogeo.drive.known_balance import (
     KnownBalance,
     MotorParameter,
@@ -18,9 +18,10 @@ from elastogeo.drive.known_balance import (
     known_torque_balance,
     motor_parameters,
 )
-from elastogeo.drive.model import TorqueModel, motion_columns
+from elastogeo.drive.measurement import EVERY_LOG, DriveTest
+from elastogeo.drive.model import PLAIN, Mask, TorqueModel, motion_columns, usable
+from elastogeo.drive.nonlinear import SEARCHABLE, make_search, ranges_of, search_balance, shared_masks
 from elastogeo.drive.records import DriveRecord
-from elastogeo.drive.search import search_balance
 from elastogeo.drive.series import (
     RigCheck,
     SetupCompliance,
@@ -46,12 +47,15 @@ from elastogeo.drive.servo import (
     servo_stiffness,
     static_stiffness,
 )
-from elastogeo.drive.trial import DriveTest
-from elastogeo.drive.validation import leave_one_run_out, predict, structure
+from elastogeo.drive.terms import Motion
+from elastogeo.drive.validation import LeftOut, RunScore, Structure, leave_one_run_out, predict, structure
 from elastogeo.drive.virtual_work import joint_forces, tool_force
 
 __all__ = [
+    "EVERY_LOG",
     "FEEDBACKS",
+    "PLAIN",
+    "SEARCHABLE",
     "BalanceFit",
     "Delay",
     "Derivatives",
@@ -61,11 +65,17 @@ __all__ = [
     "ForceAgreement",
     "ForceRecord",
     "KnownBalance",
+    "LeftOut",
+    "Mask",
+    "Motion",
     "MotorParameter",
     "RigCheck",
+    "RunScore",
+    "Searched",
     "ServoLoop",
     "ServoStiffness",
     "SetupCompliance",
+    "Structure",
     "TorqueBalance",
     "TorqueModel",
     "balance_effort",
@@ -80,6 +90,7 @@ __all__ = [
     "find_delay",
     "force_from_effort",
     "force_from_engagement",
+    "free_labels",
     "gain",
     "identify_balance",
     "in_series",
@@ -91,18 +102,23 @@ __all__ = [
     "leave_one_run_out",
     "machine_compliance",
     "machine_compliance_uncertainty",
+    "make_search",
     "motion_columns",
     "motor_parameters",
     "poles",
     "predict",
+    "ranges_of",
     "rig_check",
     "search_balance",
     "servo_stiffness",
     "setup_compliance",
+    "shared_masks",
     "smoothed",
     "static_stiffness",
     "stiffness_from_compliance",
     "structure",
     "tool_force",
+    "units_of",
+    "usable",
     "with_rig",
 ]

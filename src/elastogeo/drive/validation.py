@@ -18,8 +18,8 @@ from elastogeo.drive.balance import (
     load_names,
 )
 from elastogeo.drive.model import Mask, TorqueModel, usable
+from elastogeo.drive.nonlinear import Search, lowest, make_search
 from elastogeo.drive.records import DriveRecord
-from elastogeo.drive.search import Search, lowest, make_search
 from elastogeo.errors import RankError
 from elastogeo.estimate import confounding, merge, solve
 from elastogeo.machine import Array

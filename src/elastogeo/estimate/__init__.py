@@ -1,6 +1,16 @@
 """Labelled linear least squares, knowing nothing of machines: factor, confounding, solutions. Stands on `errors`."""
 
 from elastogeo.estimate.clusters import solve_by_run
+from elastogeo.estimate.cone import (
+    Block,
+    Projection,
+    PsdCone,
+    is_never_negative,
+    p_value_at,
+    p_value_bound,
+    project,
+    psd_cone,
+)
 from elastogeo.estimate.confounding import NULL_TOLERANCE, RANK_TOLERANCE, Confounding, confounding
 from elastogeo.estimate.distributions import DISTRIBUTIONS, Influence, coverage_factor
 from elastogeo.estimate.factor import BLOCK_ROWS, Factor, empty_factor, factor_blocks, merge, select
@@ -24,12 +34,15 @@ __all__ = [
     "NULL_TOLERANCE",
     "RANK_TOLERANCE",
     "SOLVABLE",
+    "Block",
     "Common",
     "Confounding",
     "Factor",
     "Influence",
     "MonteCarlo",
     "Noise",
+    "Projection",
+    "PsdCone",
     "Repeatability",
     "Solution",
     "confounding",
@@ -40,10 +53,15 @@ __all__ = [
     "factor_blocks",
     "first_order",
     "huber_weights",
+    "is_never_negative",
     "merge",
     "minimum_norm",
     "monte_carlo",
     "numerical_tolerance",
+    "p_value_at",
+    "p_value_bound",
+    "project",
+    "psd_cone",
     "refine",
     "repeatability",
     "select",

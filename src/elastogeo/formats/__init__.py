@@ -4,42 +4,70 @@ Stands on `sources`, `observe`, `machine` and `errors`.
 """
 
 from elastogeo.formats.channels import ChannelUse, Clock, OnOneClock, on_one_clock
-from elastogeo.formats.drive_files import read_drives
+from elastogeo.formats.documents.feed_drives import read_drives
+from elastogeo.formats.documents.machine_tests import example_test, read_test
+from elastogeo.formats.documents.machines import find_machine, read_machine, shipped_machines
+from elastogeo.formats.documents.simulations import Simulation, full_turn, poses_of, read_simulation, write_runs
+from elastogeo.formats.documents.templates import write_new_test
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, log_formats, read_log
-from elastogeo.formats.log_parquet import read_recording
-from elastogeo.formats.machine_files import find_machine, read_machine, shipped_machines
-from elastogeo.formats.new_test import write_new_test
+from elastogeo.formats.logs.parquet import read_recording
+from elastogeo.formats.recording_files import (
+    SCHEMA,
+    Gap,
+    PartHead,
+    RecordedChannel,
+    Samples,
+    encode_part,
+    part_files,
+    part_name,
+    read_head,
+    read_table,
+    said_gap,
+    said_time,
+    standing_gaps,
+)
 from elastogeo.formats.run_files import RunFormat, read_run, run_formats
-from elastogeo.formats.simulation_files import Simulation, full_turn, poses_of, read_simulation, write_runs
-from elastogeo.formats.table import Table
-from elastogeo.formats.trial_files import example_test, read_test
+from elastogeo.formats.text.table import Table
 
 __all__ = [
+    "SCHEMA",
     "Channel",
     "ChannelUse",
     "Clock",
+    "Gap",
     "Log",
     "LogFormat",
     "OnOneClock",
+    "PartHead",
+    "RecordedChannel",
     "RunFormat",
+    "Samples",
     "Simulation",
     "Table",
+    "encode_part",
     "example_test",
     "find_machine",
     "full_turn",
     "log_formats",
     "on_one_clock",
+    "part_files",
+    "part_name",
     "poses_of",
     "read_drives",
+    "read_head",
     "read_log",
     "read_machine",
     "read_recording",
     "read_run",
     "read_simulation",
+    "read_table",
     "read_test",
     "run_formats",
+    "said_gap",
+    "said_time",
     "shipped_machines",
+    "standing_gaps",
     "write_new_test",
     "write_runs",
 ]

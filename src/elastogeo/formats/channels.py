@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError, InputError
-from elastogeo.formats.channels_clock import (
+from elastogeo.formats.channel_clock import (
     SAME,
     Track,
     at_moments,
@@ -34,8 +34,8 @@ from elastogeo.formats.channels_clock import (
     unwrapped,
 )
 from elastogeo.formats.log import Channel, Log
-from elastogeo.formats.table import Table
-from elastogeo.formats.units import UNITS, check_unit, spellings, split_unit, to_internal
+from elastogeo.formats.text.table import Table
+from elastogeo.formats.text.units import UNITS, check_unit, spellings, split_unit, to_internal
 from elastogeo.machine import OptionalTime, Time
 
 Array = NDArray[np.float64]

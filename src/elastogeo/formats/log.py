@@ -22,7 +22,7 @@ class Channel:
     name : str
         As the file spells it: `CURRENT|1`, `X1_CurrentFeedback`.
     unit : str
-        As the file says it, in a spelling of `elastogeo.formats.units`; empty if the file gives none.
+        As the file says it, in a spelling of `elastogeo.formats.text.units`; empty if the file gives none.
     values : array, shape (m,)
         In that unit; NaN where the file has a sample but no number.
     time : array, shape (m,) [s], or None

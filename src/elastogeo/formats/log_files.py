@@ -1,7 +1,7 @@
 '''Log files: any recording of a control or data logger -> a `Log`. The format is told from the content, never from the name.
 
-To add a format, write one file in this package whose name begins with `log_`. It is found and registered by itself, and
-the contract tests in `tests/formats/test_log_files.py` run on it at once. A complete one, `log_toy.py`::
+To add a format, write one file in the folder `logs` beside this one. It is found and registered by itself, and
+the contract tests in `tests/formats/test_log_files.py` run on it at once. A complete one, `logs/toy.py`::
 
     """The toy format: the word TOYLOG, then one current in amperes on each line, a millisecond apart."""
 
@@ -41,9 +41,10 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from elastogeo.discovery import import_all
 from elastogeo.errors import FormatError
-from elastogeo.formats.by_content import add, format_of, look_for, opened
 from elastogeo.formats.log import Log
+from elastogeo.formats.text.by_content import add, format_of, opened
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,8 +90,8 @@ def register(log_format: LogFormat) -> None:
 
 
 def log_formats() -> dict[str, LogFormat]:
-    """All known formats by name: those of every module of this package whose name begins with `log_`."""
-    look_for("log_")
+    """All known formats by name: those of every file in the folder `logs`."""
+    import_all("elastogeo.formats.logs")
     return dict(_FORMATS)
 
 

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
-from elastogeo.formats.parquet_bytes import damaged, opened_parquet, pyarrow_modules, unpacked
+from elastogeo.formats.text.parquet_bytes import damaged, opened_parquet, pyarrow_modules, unpacked
 
 SCHEMA = "elastogeo.recording/1"
 PART = re.compile(r"part-(\d{6,9})\.parquet", re.ASCII)

@@ -1,7 +1,7 @@
 '''Run files: any file of readings -> a `Table`. The format is told from the content, never from the file's name.
 
-To add a format, write one file in this package whose name begins with `run_`. It is found and registered by itself, and
-the contract tests in `tests/formats/test_run_files.py` run on it at once. A complete one, `run_toy.py`::
+To add a format, write one file in the folder `runs` beside this one. It is found and registered by itself, and
+the contract tests in `tests/formats/test_run_files.py` run on it at once. A complete one, `runs/toy.py`::
 
     """The toy format: the word TOY, then one force in newtons on each line."""
 
@@ -9,7 +9,7 @@ the contract tests in `tests/formats/test_run_files.py` run on it at once. A com
 
     from elastogeo.errors import FormatError
     from elastogeo.formats.run_files import RunFormat, register
-    from elastogeo.formats.table import Table
+    from elastogeo.formats.text.table import Table
 
 
     def can_read(head: bytes) -> bool:
@@ -49,9 +49,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from elastogeo.discovery import import_all
 from elastogeo.errors import FormatError
-from elastogeo.formats.by_content import add, format_of, look_for, opened
-from elastogeo.formats.table import Table
+from elastogeo.formats.text.by_content import add, format_of, opened
+from elastogeo.formats.text.table import Table
 
 _ADVICE = "A text file needs a line of headers with units, such as 'angle_deg,radial_um', above its numbers"
 _CHOICE = re.compile(r"(?P<path>.+)#(?P<number>\d{1,3})", re.ASCII | re.DOTALL)
@@ -106,8 +107,8 @@ def register(run_format: RunFormat) -> None:
 
 
 def run_formats() -> dict[str, RunFormat]:
-    """All known formats by name: those of every module of this package whose name begins with `run_`."""
-    look_for("run_")
+    """All known formats by name: those of every file in the folder `runs`."""
+    import_all("elastogeo.formats.runs")
     return dict(_FORMATS)
 
 

@@ -1,18 +1,18 @@
 """Instruments and tests, made into a table of observations. Stands on `drive`, `machine`, `estimate` and `errors`."""
 
-from elastogeo.observe.ball_bar import LoadedBallBar
-from elastogeo.observe.ball_roller import BallRoller
+from elastogeo.observe.bars.ball_bar import LoadedBallBar
 from elastogeo.observe.circle import PLANES, Circle, plane_directions
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
 from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
+from elastogeo.observe.measurement import KnownInfluence, MachineTest, Question, Run, Setup
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
-from elastogeo.observe.probes import DisplacementProbes
-from elastogeo.observe.rig import Rig
-from elastogeo.observe.sensor_frame import Sensor, SensorFrame, sensitivities
-from elastogeo.observe.sensor_twist import SensorTwist, check_sees_twist, sensor_twist
-from elastogeo.observe.static_force import StaticForce
-from elastogeo.observe.trial import KnownInfluence, MachineTest, Question, Run, Setup
+from elastogeo.observe.rollers.ball_roller import BallRoller
+from elastogeo.observe.rollers.rig import Rig
+from elastogeo.observe.static_loads.probes import DisplacementProbes
+from elastogeo.observe.static_loads.sensor_frame import Sensor, SensorFrame, sensitivities
+from elastogeo.observe.static_loads.sensor_twist import SensorTwist, check_sees_twist, sensor_twist
+from elastogeo.observe.static_loads.static_force import StaticForce
 
 __all__ = [
     "PLANES",

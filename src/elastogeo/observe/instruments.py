@@ -16,12 +16,11 @@ Nothing else changes: test files may name it, and the contract suite tests it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib import import_module
-from pkgutil import iter_modules
 from typing import TypeVar
 
+from elastogeo.discovery import import_all
 from elastogeo.errors import InputError
-from elastogeo.observe.trial import Setup
+from elastogeo.observe.measurement import Setup
 
 _REGISTER: dict[str, type[Setup]] = {}
 S = TypeVar("S", bound=type)
@@ -38,10 +37,8 @@ def instrument(name: str) -> Callable[[S], S]:
 
 
 def instruments() -> dict[str, type[Setup]]:
-    """All instruments by name; every file of this room is looked at."""
-    package = __name__.rpartition(".")[0]
-    for module in iter_modules(import_module(package).__path__):
-        import_module(f"{package}.{module.name}")
+    """All instruments by name; every file of this room and its wings is looked at."""
+    import_all(__name__.rpartition(".")[0])
     return dict(sorted(_REGISTER.items()))
 
 

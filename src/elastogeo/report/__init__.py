@@ -23,6 +23,14 @@ from elastogeo.report.as_json import (
 from elastogeo.report.as_json.drive import DRIVE_SCHEMA, drive_json
 from elastogeo.report.as_json.static import STATIC_SCHEMA, static_json
 from elastogeo.report.drive_figures import drive_figures, save_drive_figures
+from elastogeo.report.drive_text import (
+    drive_rows,
+    model_rows,
+    note_sentences,
+    samples_sentence,
+    score_rows,
+    searched_sentence,
+)
 from elastogeo.report.extra import MissingExtraError
 from elastogeo.report.figures import FORMATS, figures, save_figures
 from elastogeo.report.findings import (
@@ -82,6 +90,7 @@ __all__ = [
     "display_units",
     "drive_figures",
     "drive_json",
+    "drive_rows",
     "figures",
     "html_report",
     "hysteresis_figure",
@@ -90,14 +99,19 @@ __all__ = [
     "level_names",
     "log_words",
     "machine_json",
+    "model_rows",
+    "note_sentences",
     "parameter_rows",
     "pdf_report",
+    "samples_sentence",
     "save_drive_figures",
     "save_figures",
     "save_html",
     "save_pdf",
     "save_static",
     "save_stiffness",
+    "score_rows",
+    "searched_sentence",
     "significant",
     "static_json",
     "static_tables",

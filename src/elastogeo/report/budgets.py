@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import isfinite
 from typing import Any
 
-from elastogeo.identify import BudgetLine, Identification
+from elastogeo.identification import BudgetLine, Identification
 from elastogeo.report.numbers import pretty, significant
 from elastogeo.report.text import display_units, label
 

@@ -8,7 +8,7 @@ from math import ceil
 import numpy as np
 from matplotlib.axes import Axes
 
-from elastogeo.identify import Identification
+from elastogeo.identification import Identification
 from elastogeo.machine import Array
 from elastogeo.observe import BallRoller, LoadedBallBar
 from elastogeo.report.style import FAINT, GREY, INK, SMALL, nice_step, thinned

@@ -8,7 +8,7 @@ from typing import Any
 
 from elastogeo import __version__
 from elastogeo.estimate import Repeatability
-from elastogeo.identify import CONDITION_LIMIT, Circularity, Comparison, Consistency, Diagnosis, Identification
+from elastogeo.identification import CONDITION_LIMIT, Circularity, Comparison, Consistency, Diagnosis, Identification
 from elastogeo.observe import BallRoller, LoadedBallBar
 from elastogeo.report.as_json.envelope import instrument_name
 from elastogeo.report.budgets import budget_tables, degrees, uncertainty_table

@@ -10,7 +10,7 @@ from typing import Any
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from elastogeo.identify import Diagnosis, Identification, Parameter
+from elastogeo.identification import Diagnosis, Identification, Parameter
 from elastogeo.report.findings import described, distortion_interval
 from elastogeo.report.numbers import significant
 from elastogeo.report.style import BLUE, FAINT, GREY, INK, ORANGE, new_figure

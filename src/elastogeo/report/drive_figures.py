@@ -8,11 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from elastogeo.drive import DriveRecord
-from elastogeo.drive.balance import BalanceFit
-from elastogeo.drive.model import usable
-from elastogeo.drive.terms import Motion
-from elastogeo.identify.drives import AxisDrive, DriveIdentification
+from elastogeo.drive import BalanceFit, DriveRecord, Motion, usable
+from elastogeo.identification.feed_drives import AxisDrive, DriveIdentification
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.figures import FORMATS, save_drawn
 

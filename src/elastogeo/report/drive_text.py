@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from elastogeo.drive.balance import Searched
-from elastogeo.drive.trial import EVERY_LOG
-from elastogeo.drive.validation import RunScore
-from elastogeo.identify.drives import AxisDrive, DriveIdentification
+from elastogeo.drive import EVERY_LOG, RunScore, Searched
+from elastogeo.identification.feed_drives import AxisDrive, DriveIdentification
 from elastogeo.report.numbers import significant, value_with_uncertainty, written_unit
 from elastogeo.report.text import combination
 

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from elastogeo.estimate import Repeatability
-from elastogeo.identify import Identification
+from elastogeo.identification import Identification
 from elastogeo.machine import Array
 from elastogeo.report.numbers import DisplayUnit
 from elastogeo.report.style import BLUE, GREY, INK, ORANGE, SMALL, grid

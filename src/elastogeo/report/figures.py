@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from elastogeo.errors import InputError
-from elastogeo.identify import Identification
+from elastogeo.identification import Identification
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.findings import diagnosis_of
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from elastogeo.estimate import coverage_factor
-from elastogeo.identify import SIGNIFICANT, BeforeAfter, Diagnosis, Difference, Fault, Identification, WhatIf, diagnose
+from elastogeo.identification import SIGNIFICANT, BeforeAfter, Diagnosis, Difference, Fault, Identification, WhatIf, diagnose
 from elastogeo.report.numbers import DisplayUnit, display_unit, probability, significant, value_with_uncertainty
 from elastogeo.report.text import UM, UNTOLD, all_separated, in_micrometres, label, shared_units
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from elastogeo.identify import Identification
+from elastogeo.identification import Identification
 from elastogeo.report.context import report_context
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.figures import ALTERNATIVES, figures, inline_svg

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from elastogeo.identify import Identification, Pattern
+from elastogeo.identification import Identification, Pattern
 from elastogeo.report.circles import is_angular, ring
 from elastogeo.report.style import BLUE, FAINT, GREY, INK, ORANGE, SMALL, grid, thinned
 

@@ -10,7 +10,7 @@ import json
 from importlib.resources import files
 from pathlib import Path
 
-from elastogeo.identify import Identification
+from elastogeo.identification import Identification
 from elastogeo.report.context import report_context
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.figures import ALTERNATIVES, figure_bytes, figures

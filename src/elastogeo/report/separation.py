@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from elastogeo.identify import Identification, Trace, systems_of
+from elastogeo.identification import Identification, Trace, systems_of
 from elastogeo.machine import Array
 from elastogeo.report.circles import Scale, around, division_note, is_angular, nominal_radius, pose_axis, rings, scale_for
 from elastogeo.report.numbers import significant

@@ -10,10 +10,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from elastogeo.errors import UnsupportedError
-from elastogeo.identify.cartesian_stiffness import Principal
-from elastogeo.identify.on_axis import OnAxis
-from elastogeo.identify.static_line import Estimate, StaticLine
-from elastogeo.identify.static_test_result import Cartesian, LoadedPlace, LoadedRun, StaticResults, TwistRun
+from elastogeo.identification.static_tests import (
+    Cartesian,
+    Estimate,
+    LoadedPlace,
+    LoadedRun,
+    OnAxis,
+    Principal,
+    StaticLine,
+    StaticResults,
+    TwistRun,
+)
 from elastogeo.machine import Array
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.figures import save_drawn

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from elastogeo.estimate import coverage_factor
-from elastogeo.identify import Stiffness, StiffnessMap
+from elastogeo.identification import Stiffness, StiffnessMap
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.figures import save_drawn
 from elastogeo.report.numbers import significant, value_with_uncertainty

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from elastogeo.identify import Identification, Parameter
+from elastogeo.identification import Identification, Parameter
 from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
 
 UM = 1000.0

@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MultipleLocator
 
-from elastogeo.identify import Identification, Trace
-from elastogeo.identify.systems import same_force
+from elastogeo.identification import Identification, Trace, same_force
 from elastogeo.report.circles import (
     Scale,
     around,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from elastogeo.identify import Comparison, Identification
+from elastogeo.identification import Comparison, Identification
 from elastogeo.report.style import BLUE, GREEN, GREY, INK, ORANGE, new_figure
 from elastogeo.report.text import UM, labels
 

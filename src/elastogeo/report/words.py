@@ -6,8 +6,7 @@ import re
 from collections.abc import Iterable, Mapping
 
 from elastogeo.estimate import Confounding
-from elastogeo.identify import SIGNIFICANT, Comparison, Identification, Parameter
-from elastogeo.identify.budget import SCATTER
+from elastogeo.identification import SCATTER, SIGNIFICANT, Comparison, Identification, Parameter
 from elastogeo.observe import BallRoller, LoadedBallBar, MachineTest
 from elastogeo.report.numbers import micro, probability, significant
 from elastogeo.report.text import all_separated

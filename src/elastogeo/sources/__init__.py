@@ -1,6 +1,7 @@
 """The error sources: names, units, drivers, catalogue, presets; the readings they cause. Stands on `observe`, `machine`."""
 
 from elastogeo.sources.catalogue import PRESETS, catalogue, select_sources
+from elastogeo.sources.compliance import JointLoad
 from elastogeo.sources.families import families, family
 from elastogeo.sources.response import (
     column_ceilings,
@@ -20,6 +21,7 @@ __all__ = [
     "NODES",
     "PRESETS",
     "Driver",
+    "JointLoad",
     "Situation",
     "Source",
     "catalogue",

@@ -11,9 +11,9 @@ Nothing else changes: the catalogue lists it, patterns select it, the contract s
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from importlib import import_module
-from pkgutil import iter_modules
 from typing import TYPE_CHECKING
+
+from elastogeo.discovery import import_all
 
 if TYPE_CHECKING:
     from elastogeo.machine import Machine
@@ -44,8 +44,6 @@ def source_named(machine: Machine, name: str) -> Source | None:
 
 
 def families() -> dict[str, Family]:
-    """All families by name; every file of this room is looked at."""
-    package = __name__.rpartition(".")[0]
-    for module in iter_modules(import_module(package).__path__):
-        import_module(f"{package}.{module.name}")
+    """All families by name; every file of this room and its wings is looked at."""
+    import_all(__name__.rpartition(".")[0])
     return dict(_REGISTER)

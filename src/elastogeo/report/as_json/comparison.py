@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from elastogeo.identify import BeforeAfter, Difference, Parameter
+from elastogeo.identification import BeforeAfter, Difference, Parameter
 from elastogeo.report.as_json.envelope import document, tested, verdict_entries
 from elastogeo.report.as_json.identification import change_entry
 

@@ -17,7 +17,7 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
-from elastogeo.identify import Circularity, Diagnosis, Fault, Identification
+from elastogeo.identification import Circularity, Diagnosis, Fault, Identification
 from elastogeo.report.as_json.envelope import UM, document, in_um, tested, verdict_entries
 from elastogeo.report.findings import described, distortion_interval
 

@@ -30,9 +30,8 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from typing import Any
 
-from elastogeo.drive.balance import BalanceFit, Searched
-from elastogeo.drive.validation import RunScore
-from elastogeo.identify.drives import AxisDrive, DriveIdentification, DriveParameter, ModelScore
+from elastogeo.drive import BalanceFit, RunScore, Searched
+from elastogeo.identification.feed_drives import AxisDrive, DriveIdentification, DriveParameter, ModelScore
 from elastogeo.report.as_json.envelope import document, verdict_entries
 
 DRIVE_SCHEMA = "elastogeo.drive/1"

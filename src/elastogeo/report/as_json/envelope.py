@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from elastogeo import __version__
-from elastogeo.identify import Check
+from elastogeo.identification import Check
 from elastogeo.observe import MachineTest, instruments
 
 UM = 1000.0

@@ -39,7 +39,7 @@ from __future__ import annotations
 from typing import Any
 
 from elastogeo.estimate import Confounding, Repeatability
-from elastogeo.identify import (
+from elastogeo.identification import (
     Agreement,
     BudgetLine,
     Change,

@@ -48,9 +48,18 @@ from typing import Any
 
 import numpy as np
 
-from elastogeo.identify.on_axis import OnAxis, OnAxisCompliance
-from elastogeo.identify.static_line import Estimate, StaticLine
-from elastogeo.identify.static_test_result import Cartesian, LoadedPlace, LoadedRun, LoadStep, StaticResults, TwistRun
+from elastogeo.identification.static_tests import (
+    Cartesian,
+    Estimate,
+    LoadedPlace,
+    LoadedRun,
+    LoadStep,
+    OnAxis,
+    OnAxisCompliance,
+    StaticLine,
+    StaticResults,
+    TwistRun,
+)
 from elastogeo.report.as_json.envelope import UM, document, tested, verdict_entries
 from elastogeo.report.as_json.identification import identification_json
 

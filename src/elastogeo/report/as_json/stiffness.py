@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from elastogeo.drive import ForceAgreement, RigCheck
-from elastogeo.identify import Stiffness, StiffnessMap
+from elastogeo.identification import Stiffness, StiffnessMap
 from elastogeo.report.as_json.envelope import UM, document, tested, verdict_entries
 from elastogeo.report.as_json.identification import identification_json
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from elastogeo.identify import Identification, WhatIf
+from elastogeo.identification import Identification, WhatIf
 from elastogeo.report.as_json.diagnosis import circularity_entries
 from elastogeo.report.as_json.envelope import UM, document, tested, verdict_entries
 

@@ -1,0 +1,1 @@
+"""What people write: machines, tests, feed drives, simulations, and templates of them, in TOML."""

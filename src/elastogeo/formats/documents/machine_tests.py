@@ -1,0 +1,181 @@
+"""Test files: a test as a TOML document, beside the run files that it names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from elastogeo.errors import FormatError, InputError
+from elastogeo.formats.channels import ChannelUse, Clock, on_one_clock
+from elastogeo.formats.documents.machines import find_machine
+from elastogeo.formats.log_files import log_formats, read_log
+from elastogeo.formats.run_files import read_run, run_formats
+from elastogeo.formats.text.by_content import HEAD
+from elastogeo.formats.text.table import Table
+from elastogeo.formats.text.toml_documents import build, check_schema, read_document
+from elastogeo.machine import OptionalForce, OptionalLength, OptionalPressure, OptionalTime
+from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, instrument_named
+
+SCHEMA = "elastogeo.test/1"
+FILE_NAME = "test.toml"
+EXAMPLE = "hermle-c50-ldbb"
+_SENSES = {"ccw": 1, "cw": -1}
+
+ReadRun = Callable[[Path], Table]
+
+
+@dataclass(frozen=True, slots=True)
+class RunDocument:
+    """One entry of the table `runs` of a test file; `start` and `end` [s]: the part of a log to take, on its own clock."""
+
+    file: str
+    name: str = ""
+    force: OptionalForce = None
+    pressure: OptionalPressure = None
+    engagement: OptionalLength = None
+    sense: str = ""
+    repeat: int = 1
+    start: OptionalTime = None
+    end: OptionalTime = None
+
+    def __post_init__(self) -> None:
+        """Refuse a sense of rotation that is none, and a part of a log that is empty."""
+        if self.start is not None and self.end is not None and not self.start < self.end:
+            raise InputError(f"the run begins at {self.start:.6g} s and ends at {self.end:.6g} s; let it end later")
+        if self.sense and self.sense not in _SENSES:
+            raise InputError(f"sense is {self.sense!r}; write ccw (counter-clockwise) or cw (clockwise)")
+
+
+@dataclass(frozen=True, slots=True)
+class TestDocument:
+    """What a test file says; its table `setup` is the instrument's.
+
+    With `channels`, `clock`, or a `start` or `end` of a run, the files of its runs are logs of a controller: see `channels`.
+    """
+
+    schema: str
+    name: str
+    machine: str
+    instrument: str
+    setup: Mapping[str, Any]
+    runs: tuple[RunDocument, ...] = ()
+    question: Question = field(default_factory=Question)
+    influences: tuple[KnownInfluence, ...] = ()
+    resolution: OptionalLength = None
+    simulated: str = ""
+    channels: tuple[ChannelUse, ...] = ()
+    clock: Clock = field(default_factory=Clock)
+
+
+def read_test(path: Path, read: ReadRun | None = None, setup: Mapping[str, Any] | None = None) -> MachineTest:
+    """Read a test: a folder that holds a `test.toml`, or such a file.
+
+    Parameters
+    ----------
+    path : Path
+    read : callable
+        From the path of a run file to its table; by default the file is read, as a log where the test says or the file shows
+        that it is one. A simulation gives its poses here, for runs that no file holds yet.
+    setup : mapping of str to any, optional
+        What stands in the file's table `setup` is replaced by these entries: a simulation's truth.
+
+    Returns
+    -------
+    MachineTest
+
+    Raises
+    ------
+    FormatError
+        If the file, or a run file, is not what it must be.
+    InputError
+        If the machine or the test contradicts itself.
+    """
+    file, document = read_test_document(path)
+    return MachineTest(
+        name=document.name,
+        machine=find_machine(document.machine, file.parent),
+        setup=build(instrument_named(document.instrument), {**document.setup, **(setup or {})}, f"{file}, setup"),
+        runs=tuple(_run(entry, _table(document, entry, file.parent, read)) for entry in document.runs),
+        question=document.question,
+        resolution=document.resolution,
+        influences=document.influences,
+        simulated=document.simulated,
+    )
+
+
+def read_test_document(path: Path) -> tuple[Path, TestDocument]:
+    """The test file of a folder, or the file itself, and what it says; no run file is opened.
+
+    Raises
+    ------
+    FormatError
+        If it is not what it must be, or names no run.
+    """
+    file = path / FILE_NAME if path.is_dir() else path
+    table = read_document(file)
+    check_schema(table, SCHEMA, str(file))
+    document = build(TestDocument, table, str(file))
+    if not document.runs:
+        raise FormatError(f'{file}: names no run; add for each run [[runs]] with file = "runs/112N.csv" and force_N = 112')
+    return file, document
+
+
+def example_test() -> Path:
+    """The folder of the example test that comes with elastogeo.
+
+    Raises
+    ------
+    FormatError
+        If this copy of elastogeo came without it.
+    """
+    package = Path(str(resources.files("elastogeo")))
+    for folder in (package / "examples" / EXAMPLE, package.parent.parent / "examples" / EXAMPLE):
+        if (folder / FILE_NAME).is_file():
+            return folder
+    raise FormatError(f"the example {EXAMPLE} did not come with this copy of elastogeo; install it again")
+
+
+def _table(document: TestDocument, entry: RunDocument, folder: Path, read: ReadRun | None) -> Table:
+    """What a run recorded; of a log, its channels on one clock."""
+    path = folder / entry.file
+    if read is not None:
+        return read(path)
+    asked = bool(document.channels) or document.clock != Clock() or entry.start is not None or entry.end is not None
+    if not asked and not _is_only_log(path):
+        return read_run(path)
+    return on_one_clock(read_log(path), document.channels, document.clock, entry.start, entry.end).table
+
+
+def _is_only_log(path: Path) -> bool:
+    """Whether a file is of a format of logs, and of no format of runs."""
+    try:
+        with open(path, "rb") as file:
+            head = file.read(HEAD)
+    except (OSError, ValueError):
+        return False
+    if any(known.can_read(head) for known in run_formats().values()):
+        return False
+    return any(known.can_read(head) for known in log_formats().values())
+
+
+def _run(document: RunDocument, table: Table) -> Run:
+    said, _, number = document.file.partition("#")
+    sense = document.sense or table.metadata.get("direction", "ccw").lower()
+    if sense != table.metadata.get("direction", sense).lower():
+        raise FormatError(
+            f"{table.source}: the file says that the run went {table.metadata['direction']}, the test says {sense}; "
+            f"correct the test file, or leave its sense out"
+        )
+    return Run(
+        name=document.name or "-".join(filter(None, [Path(said).stem, number])),
+        columns=table.columns,
+        force=document.force,
+        pressure=document.pressure,
+        engagement=document.engagement,
+        sense=_SENSES[sense],
+        repeat=document.repeat,
+        notes=tuple(table.metadata.get("clock", "").splitlines()),
+    )

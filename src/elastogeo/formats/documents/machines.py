@@ -1,0 +1,93 @@
+"""Machine files: a machine as a TOML document, one's own or one that ships with elastogeo."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from elastogeo.errors import FormatError
+from elastogeo.formats.text.toml_documents import build, check_schema, read_document
+from elastogeo.formats.text.units import UNITS
+from elastogeo.machine import ROTARY, SPINDLE, Joint, Machine, Point, parse_topology
+
+SCHEMA = "elastogeo.machine/1"
+
+
+@dataclass(frozen=True, slots=True)
+class MachineDocument:
+    """The tables of a machine file."""
+
+    schema: str
+    name: str
+    topology: str
+    tool: Point = (0.0, 0.0, 0.0)
+    assumed: tuple[str, ...] = ()
+    axes: Mapping[str, Any] = field(default_factory=dict)
+
+
+def shipped_machines() -> dict[str, Path]:
+    """The machine files that ship with elastogeo, by name."""
+    folder = Path(str(resources.files("elastogeo.formats"))) / "machines"
+    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+
+
+def find_machine(name: str, beside: Path) -> Machine:
+    """The machine that a document names: a shipped one, or a file, relative to the folder of the document.
+
+    Raises
+    ------
+    FormatError
+        If it is neither.
+    """
+    shipped = shipped_machines()
+    if name in shipped:
+        return read_machine(shipped[name])
+    path = beside / name
+    if path.suffix == ".toml" and path.is_file():
+        return read_machine(path)
+    raise FormatError(
+        f"there is no machine {name!r}: it is no file beside {beside}, and elastogeo ships with {', '.join(shipped)}"
+    )
+
+
+def read_machine(path: Path) -> Machine:
+    """Read a machine file.
+
+    Parameters
+    ----------
+    path : Path
+        A TOML file with `schema`, `name`, `topology`, `tool_mm`, and a table per axis with `offset_mm`, `tilt_deg`,
+        `travel_mm` or `travel_deg`, `compliant`.
+
+    Raises
+    ------
+    FormatError
+        If it is no such document.
+    MachineError
+        If the topology is none, or the machine contradicts itself.
+    """
+    table = read_document(path)
+    check_schema(table, SCHEMA, str(path))
+    document = build(MachineDocument, table, str(path))
+    topology = parse_topology(document.topology)
+    strangers = [axis for axis in document.axes if axis not in topology.axes]
+    if strangers:
+        raise FormatError(f"{path}: the table axes.{strangers[0]} names no axis of {topology.compact}; remove it")
+    joints = tuple(_joint(axis, document.axes.get(axis, {}), path) for axis in topology.axes)
+    return Machine(document.name, topology, joints, document.tool, document.assumed)
+
+
+def _joint(axis: str, table: Any, path: Path) -> Joint:
+    where = f"{path}, axes.{axis}"
+    if not isinstance(table, Mapping):
+        raise FormatError(f"{where}: must be a table, got {table!r:.60}")
+    for key in table:
+        unit = UNITS.get(key.removeprefix("travel_"))
+        if unit is not None and unit.dimension != ("angle" if axis in ROTARY else "length"):
+            raise FormatError(
+                f"{where}: {key} is no travel of the axis {axis}; write travel_{'deg' if axis in ROTARY else 'mm'}"
+            )
+    return build(Joint, {"compliant": axis != SPINDLE, **table, "name": axis}, where)

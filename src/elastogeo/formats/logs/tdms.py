@@ -1,0 +1,304 @@
+"""TDMS files of LabVIEW and DIAdem (`.tdms`), through npTDMS. Needs `elastogeo[logs]`.
+
+The layout of lead-ins, segments and properties is that of npTDMS's own reader and writer. Of a file that is cut off the
+library gives what is left, some channels shorter than others, and only logs a warning. So each segment's lead-in is checked
+first: segments must follow one another to the last byte of the file; and after its metadata are read, the data of each must
+be whole chunks. Otherwise, or if the library logs any warning, the file is refused. Nothing in a TDMS file is compressed;
+the number of pieces (segments, chunks, objects) is capped by the file's size, so that a small file cannot cost much.
+
+A channel is named `group/channel`. Its unit is the property `unit_string`, if that is a known spelling. Its clock is made
+of `wf_start_time`, `wf_start_offset` and `wf_increment` [s]; without an increment, or where `wf_xunit_string` is not a
+second, it has none. Infinite values become NaN, with a note. Left out, with a note: text, time stamps, complex numbers,
+empty channels. Refused: integers that a float64 would round.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import io
+import logging
+import struct
+import threading
+from collections.abc import Iterator, Mapping
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from elastogeo.errors import FormatError
+from elastogeo.formats.log import Channel, Log
+from elastogeo.formats.log_files import LogFormat, register
+from elastogeo.formats.text.units import UNITS
+
+Array = NDArray[np.float64]
+
+_TAG = b"TDSm"
+_LEAD = 28
+_META, _NEW, _BIG = 1 << 1, 1 << 2, 1 << 6
+_LEAST = 2000
+_BYTES_PER_OBJECT = 10
+_BYTES_PER_PIECE = 50
+
+
+def can_read(head: bytes) -> bool:
+    """Whether a file that begins with these bytes is TDMS."""
+    return head.startswith(_TAG)
+
+
+def read_tdms(data: bytes, source: str) -> Log:
+    """Read a TDMS file.
+
+    Parameters
+    ----------
+    data : bytes
+        The whole file.
+    source : str
+        Its name, for messages.
+
+    Returns
+    -------
+    Log
+        A channel for each channel of numbers, as `group/channel`; metadata are the properties of the file and its groups.
+
+    Raises
+    ------
+    FormatError
+        If the file is cut off or damaged, was not closed, is made of too many pieces, or npTDMS is not installed.
+    """
+    _check_segments(data, source)
+    library = _nptdms()
+    with _quiet() as warnings:
+        try:
+            with library.TdmsFile.open(io.BytesIO(data)) as file:
+                _check_data(file, len(data), source)
+                arrays, about, notes = _arrays(file, source)
+                metadata = _metadata(file)
+        except FormatError:
+            raise
+        except Exception as error:  # noqa: BLE001 - on damaged files the library raises errors of any type
+            raise _damaged(source, str(error) or type(error).__name__) from None
+    if warnings:
+        raise _damaged(source, warnings[0])
+    times = _clocks(arrays, about, source, notes)
+    channels = {}
+    for name, values in arrays.items():
+        bad = np.isinf(values)
+        if bad.any():
+            notes.append(f"{name}: {int(bad.sum())} infinite values are NaN")
+            values[bad] = np.nan
+        channels[name] = Channel(name, _unit(about[name], name, notes), values, times[name])
+    if not channels:
+        raise FormatError(f"{source}: holds no channel of numbers ({'; '.join(notes[:3]) or 'it is empty'}); save it again")
+    return Log(channels, metadata, source, tuple(notes))
+
+
+def _nptdms() -> ModuleType:
+    try:
+        return importlib.import_module("nptdms")
+    except ImportError:
+        raise FormatError("TDMS files need npTDMS: pip install 'elastogeo[logs]'") from None
+
+
+def _damaged(source: str, reason: str) -> FormatError:
+    return FormatError(
+        f"{source}: the TDMS file is damaged ({(reason.splitlines() or ['?'])[0][:200]}); copy or save it again"
+    )
+
+
+def _check_segments(data: bytes, source: str) -> None:
+    """Check that whole segments fill the file, and that they do not list more objects than its size allows."""
+    at = objects = listed = 0
+    while at < len(data) or not at:
+        lead = data[at : at + _LEAD]
+        if len(lead) < _LEAD or not lead.startswith(_TAG):
+            raise FormatError(
+                f"{source}: no TDMS segment begins at byte {at}; the file is cut off or damaged; copy it again"
+            )
+        toc = int.from_bytes(lead[4:8], "little")
+        order = ">" if toc & _BIG else "<"
+        length, raw = struct.unpack(order + "QQ", lead[12:28])
+        if length == 0xFFFFFFFFFFFFFFFF:
+            raise FormatError(f"{source}: the segment at byte {at} was never finished (the program crashed); save it again")
+        if at + _LEAD + length > len(data) or raw > length or (toc & _META and raw < 4):
+            raise FormatError(
+                f"{source}: the segment at byte {at} claims {length} bytes, {len(data) - at - _LEAD} follow; the file is "
+                "cut off or damaged; copy it again"
+            )
+        if toc & _META:
+            here = struct.unpack(order + "L", data[at + _LEAD : at + _LEAD + 4])[0]
+            objects = here if toc & _NEW else objects + here
+        listed += objects + 1
+        if listed > _LEAST + len(data) // _BYTES_PER_OBJECT:
+            raise FormatError(f"{source}: lists more objects than its size allows; save it again, defragmented")
+        at += _LEAD + length
+
+
+def _check_data(file: Any, size: int, source: str) -> None:
+    """Check that the data of each segment are whole chunks, and that there are not too many of them."""
+    channels = sum(len(group.channels()) for group in file.groups())
+    pieces = 0
+    for segment in file._reader._segments:
+        objects = [o for o in segment.ordered_objects if o.has_data]
+        pieces += segment.num_chunks * max(channels, len(objects))
+        if segment.final_chunk_lengths_override is not None or segment.segment_incomplete:
+            raise FormatError(
+                f"{source}: the data of the segment at byte {segment.position} are not whole; the file is cut off or "
+                "damaged; copy it again"
+            )
+        if any(o.data_type.size is None and 4 * o.number_values > o.data_size for o in objects if o.data_size is not None):
+            raise FormatError(
+                f"{source}: a text channel claims more texts than it has bytes; the file is damaged; copy it again"
+            )
+    if pieces > _LEAST + size // _BYTES_PER_PIECE:
+        raise FormatError(
+            f"{source}: its data are in {pieces} pieces, too many for {size} bytes; save it again, defragmented"
+        )
+
+
+def _arrays(file: Any, source: str) -> tuple[dict[str, Array], dict[str, Mapping[str, Any]], list[str]]:
+    """The values and properties of each channel of numbers, and notes on those that are left out."""
+    arrays: dict[str, Array] = {}
+    about: dict[str, Mapping[str, Any]] = {}
+    notes: list[str] = []
+    names: dict[tuple[str, str], str] = {}
+    for group in file.groups():
+        for channel in group.channels():
+            name = f"{group.name}/{channel.name}"
+            while name in arrays:
+                name += "'"
+            kind = np.dtype(channel.dtype)
+            if kind.kind not in "biuf" or kind.itemsize > 8:
+                notes.append(f"{name}: left out, because it holds {_kind(kind)}")
+            elif not len(channel):
+                notes.append(f"{name}: left out, because it is empty")
+            else:
+                names[group.name, channel.name] = name
+                arrays[name] = np.full(len(channel), np.nan)
+                about[name] = channel.properties
+    filled = dict.fromkeys(arrays, 0)
+    for chunk in file.data_chunks():
+        for (group_name, channel_name), name in names.items():
+            part = chunk[group_name][channel_name]
+            if len(part):
+                arrays[name][filled[name] : filled[name] + len(part)] = _floats(part[:], name, source)
+                filled[name] += len(part)
+    if any(filled[name] != len(values) for name, values in arrays.items()):
+        raise _damaged(source, "fewer samples arrived than its segments promise")
+    return arrays, about, notes
+
+
+def _floats(part: NDArray[Any], name: str, source: str) -> Array:
+    """Numbers as float64, exactly."""
+    values: Array = part.astype(np.float64)
+    if part.dtype.kind in "iu" and part.dtype.itemsize == 8 and (np.abs(values) >= 2.0**53).any():
+        raise FormatError(f"{source}, {name}: has integers that a float64 would round; save it as float64")
+    return values
+
+
+def _kind(kind: np.dtype[Any]) -> str:
+    return {"O": "text", "U": "text", "S": "text", "M": "time stamps", "c": "complex numbers"}.get(kind.kind, f"{kind} data")
+
+
+def _clocks(
+    arrays: Mapping[str, Array], about: Mapping[str, Mapping[str, Any]], source: str, notes: list[str]
+) -> dict[str, Array | None]:
+    """The time of each channel [s], None where the file keeps no clock; equal clocks are one array."""
+    starts = {name: p["wf_start_time"] for name, p in about.items() if isinstance(p.get("wf_start_time"), np.datetime64)}
+    first = min(starts.values(), default=np.datetime64(0, "us"))
+    made: dict[tuple[int, float, float], Array] = {}
+    times: dict[str, Array | None] = dict.fromkeys(arrays)
+    for name, values in arrays.items():
+        properties = about[name]
+        try:
+            step = float(properties.get("wf_increment", 0.0))
+            offset = float(properties.get("wf_start_offset", 0.0))
+        except (TypeError, ValueError):
+            step, offset = 0.0, 0.0
+        if name in starts:
+            offset += float((starts[name] - first) / np.timedelta64(1, "us")) / 1e6
+        unit = str(properties.get("wf_xunit_string", "") or "s")
+        if starts and name not in starts:
+            reason = "it has no start time, and others have one"
+        elif unit != "s":
+            reason = f"its steps are in {unit[:40]!r}, not in s"
+        else:
+            reason = "" if np.isfinite(offset) and 0 < step < 1e12 else "it has no sample time (wf_increment)"
+        if reason:
+            notes.append(f"{name}: keeps no clock, because {reason}")
+            continue
+        key = (len(values), offset, step)
+        if key not in made:
+            clock: Array = offset + np.arange(len(values), dtype=np.float64) * step
+            made[key] = clock
+            if len(clock) > 1 and (clock[1] <= clock[0] or clock[-1] <= clock[-2]):
+                raise FormatError(f"{source}, {name}: its sample time {step:.6g} s is lost beside its start; save it again")
+        times[name] = made[key]
+    return times
+
+
+def _unit(properties: Mapping[str, Any], name: str, notes: list[str]) -> str:
+    unit = str(properties.get("unit_string", "")).strip()
+    if unit in UNITS or not unit:
+        return unit
+    notes.append(f"{name}: its unit {unit[:40]!r} is not known, so it has none")
+    return ""
+
+
+def _metadata(file: Any) -> dict[str, str]:
+    """The properties of the file and its groups as text."""
+    metadata = {str(key)[:80]: str(value)[:1000] for key, value in list(file.properties.items())[:100]}
+    for group in file.groups()[:100]:
+        for key, value in list(group.properties.items())[:100]:
+            metadata[f"{group.name}/{key}"[:160]] = str(value)[:1000]
+    return metadata
+
+
+class _Catcher(logging.Filter):
+    """Catches what the library logs in this thread."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.thread = threading.get_ident()
+        self.messages: list[str] = []
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Keep a record from being shown if it is of this thread."""
+        if record.thread != self.thread:
+            return True
+        self.messages.append(record.getMessage())
+        return False
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[list[str]]:
+    """What npTDMS logs in the meantime; nothing of it is shown."""
+    catcher = _Catcher()
+    loggers = list(importlib.import_module("nptdms.log").log_manager.loggers.values())
+    for logger in loggers:
+        logger.addFilter(catcher)
+    try:
+        with np.errstate(all="ignore"):
+            yield catcher.messages
+    finally:
+        for logger in loggers:
+            logger.removeFilter(catcher)
+
+
+def _sample() -> bytes:
+    library = _nptdms()
+    buffer = io.BytesIO()
+    clock = {"wf_start_offset": 0.0, "wf_increment": 0.001}
+    with library.TdmsWriter(buffer) as writer:
+        writer.write_segment(
+            [
+                library.RootObject({"machine": "a sample, of no machine"}),
+                library.ChannelObject("drive", "X current", np.array([0.5, -0.25, 1e-17]), {"unit_string": "A", **clock}),
+                library.ChannelObject("drive", "X position", np.array([1, 2, 4], np.int32), {"unit_string": "um", **clock}),
+            ]
+        )
+    return buffer.getvalue()
+
+
+register(LogFormat("TDMS", ".tdms", can_read, read_tdms, _sample))

@@ -1,0 +1,146 @@
+"""From a test to a design matrix to parameters, with a verdict. Stands on all rooms below; knows no file, no figure."""
+
+from elastogeo.identification.budget import SCATTER, Agreement, Budget, BudgetLine, agreement, uncertainty_budget
+from elastogeo.identification.change import SIGNIFICANT, Change, difference, local_change, run_dispersion
+from elastogeo.identification.check import Check
+from elastogeo.identification.faults.circularity import Circularity, circularity
+from elastogeo.identification.faults.comparison import BeforeAfter, Difference, compare_tests
+from elastogeo.identification.faults.diagnosis import Diagnosis, Fault, diagnose
+from elastogeo.identification.faults.what_if import WhatIf, what_if
+from elastogeo.identification.feed_drives.axis_drives import AxisDrive, DriveIdentification, identify_drives
+from elastogeo.identification.fit import Harmonic, fitness, rmse, strongest_harmonic
+from elastogeo.identification.identification import (
+    adjacent,
+    confounding_of,
+    consistency_of,
+    effects_of,
+    identify,
+    local_estimates,
+    systems_of,
+    what_reciprocity_buys,
+    with_question,
+)
+from elastogeo.identification.influences import Effect, effect, effects
+from elastogeo.identification.models import Comparison, ModelFit, compare_models
+from elastogeo.identification.physics import Consistency, Reciprocity, consistency, reciprocal_sources, reciprocity
+from elastogeo.identification.preference import moving_axes, retaining_order
+from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Trace
+from elastogeo.identification.rollers.stiffness_map import Stiffness, StiffnessMap, stiffness_map
+from elastogeo.identification.static_tests.assessment import static_results
+from elastogeo.identification.static_tests.cartesian import (
+    CartesianCompliance,
+    Principal,
+    Symmetry,
+    cartesian_compliance,
+    cartesian_from_vectors,
+    cartesian_of,
+)
+from elastogeo.identification.static_tests.drive_train import (
+    OnAxis,
+    OnAxisCompliance,
+    OnAxisPart,
+    OnAxisRecord,
+    where_in_the_drive,
+)
+from elastogeo.identification.static_tests.hysteresis import StaticHysteresis, hysteresis
+from elastogeo.identification.static_tests.loading_branches import Branch, branches_of, turning_points
+from elastogeo.identification.static_tests.result import Cartesian, LoadedPlace, LoadedRun, LoadStep, StaticResults, TwistRun
+from elastogeo.identification.static_tests.straight_line import Estimate, StaticLine, static_line
+from elastogeo.identification.systems import RunSystem, Systems, merged, noise_of, run_systems, same_force
+from elastogeo.identification.verdict import CONDITION_LIMIT
+
+__all__ = [
+    "CONDITION_LIMIT",
+    "SCATTER",
+    "SIGNIFICANT",
+    "Agreement",
+    "AxisDrive",
+    "BeforeAfter",
+    "Branch",
+    "Budget",
+    "BudgetLine",
+    "Cartesian",
+    "CartesianCompliance",
+    "Change",
+    "Check",
+    "Circularity",
+    "Comparison",
+    "Consistency",
+    "Diagnosis",
+    "Difference",
+    "DriveIdentification",
+    "Effect",
+    "Estimate",
+    "Fault",
+    "Harmonic",
+    "Identification",
+    "Level",
+    "LoadStep",
+    "LoadedPlace",
+    "LoadedRun",
+    "Local",
+    "ModelFit",
+    "OnAxis",
+    "OnAxisCompliance",
+    "OnAxisPart",
+    "OnAxisRecord",
+    "Parameter",
+    "Pattern",
+    "Principal",
+    "Reciprocity",
+    "RunSystem",
+    "StaticHysteresis",
+    "StaticLine",
+    "StaticResults",
+    "Stiffness",
+    "StiffnessMap",
+    "Symmetry",
+    "Systems",
+    "Trace",
+    "TwistRun",
+    "WhatIf",
+    "adjacent",
+    "agreement",
+    "branches_of",
+    "cartesian_compliance",
+    "cartesian_from_vectors",
+    "cartesian_of",
+    "circularity",
+    "compare_models",
+    "compare_tests",
+    "confounding_of",
+    "consistency",
+    "consistency_of",
+    "diagnose",
+    "difference",
+    "effect",
+    "effects",
+    "effects_of",
+    "fitness",
+    "hysteresis",
+    "identify",
+    "identify_drives",
+    "local_change",
+    "local_estimates",
+    "merged",
+    "moving_axes",
+    "noise_of",
+    "reciprocal_sources",
+    "reciprocity",
+    "retaining_order",
+    "rmse",
+    "run_dispersion",
+    "run_systems",
+    "same_force",
+    "static_line",
+    "static_results",
+    "stiffness_map",
+    "strongest_harmonic",
+    "systems_of",
+    "turning_points",
+    "uncertainty_budget",
+    "what_if",
+    "what_reciprocity_buys",
+    "where_in_the_drive",
+    "with_question",
+]

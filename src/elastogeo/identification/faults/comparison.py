@@ -1,0 +1,128 @@
+"""Two tests of one machine: what changed between them, and is it significant?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from elastogeo.errors import UnsupportedError
+from elastogeo.estimate import Solution, coverage_factor
+from elastogeo.identification.change import SIGNIFICANT, Change, difference, difference_freedom
+from elastogeo.identification.check import Check
+from elastogeo.identification.result import Identification
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """How one parameter changed.
+
+    Attributes
+    ----------
+    name, unit : str
+    before, after : float
+    change, standard_uncertainty : float
+    interval : tuple of 2 float
+        95 % coverage interval of the change.
+    p_value : float
+        Probability of such a change, or a greater one, if nothing changed.
+    """
+
+    name: str
+    unit: str
+    before: float
+    after: float
+    change: float
+    standard_uncertainty: float
+    interval: tuple[float, float]
+    p_value: float
+
+
+@dataclass(frozen=True, slots=True)
+class BeforeAfter:
+    """What changed between two tests.
+
+    Attributes
+    ----------
+    before, after : Identification
+    differences : tuple of Difference
+        The surest change first.
+    joint : Change
+        All parameters together.
+    verdict : tuple of Check
+    """
+
+    before: Identification
+    after: Identification
+    differences: tuple[Difference, ...]
+    joint: Change
+    verdict: tuple[Check, ...]
+
+
+def compare_tests(before: Identification, after: Identification) -> BeforeAfter:
+    """Compare two tests of one machine.
+
+    Their systematic influences count as independent: a gauge or bar that both share makes the judgement more cautious
+    than need be, never less.
+
+    Raises
+    ------
+    UnsupportedError
+        If the machines have different topologies, or the tests determine no parameter in common.
+    """
+    machines = before.test.machine, after.test.machine
+    if machines[0].topology != machines[1].topology:
+        raise UnsupportedError(
+            f"the tests are of different machines, {machines[0].topology.compact} and {machines[1].topology.compact}"
+        )
+    stands = [{p.name: p.stands_for for p in result.parameters} for result in (before, after)]
+    common = [name for name in stands[0] if name in stands[1] and set(stands[0][name]) == set(stands[1][name])]
+    if not common:
+        raise UnsupportedError("the tests determine no parameter in common; ask both for the same ones")
+    joint = difference(_combined(before, common), _combined(after, common))
+    differences = sorted((_difference(before, after, name, joint) for name in common), key=lambda d: d.p_value)
+    return BeforeAfter(before, after, tuple(differences), joint, (_verdict(differences, joint),))
+
+
+def _combined(result: Identification, names: Sequence[str]) -> Solution:
+    """The named parameters with their combined covariance."""
+    keep = [result.solution.labels.index(name) for name in names]
+    return replace(
+        result.solution,
+        labels=tuple(names),
+        values=result.solution.values[keep],
+        covariance=result.budget.covariance[np.ix_(keep, keep)],
+        degrees_of_freedom=result.budget.degrees_of_freedom[keep],
+    )
+
+
+def _difference(before: Identification, after: Identification, name: str, joint: Change) -> Difference:
+    one, other = (_combined(result, [name]) for result in (before, after))
+    change = float(other.values[0] - one.values[0])
+    uncertainty = float(np.sqrt(one.covariance[0, 0] + other.covariance[0, 0]))
+    half = float(coverage_factor(difference_freedom(one, other))[0]) * uncertainty
+    return Difference(
+        name=name,
+        unit=next(p.unit for p in before.parameters if p.name == name),
+        before=float(one.values[0]),
+        after=float(other.values[0]),
+        change=change,
+        standard_uncertainty=uncertainty,
+        interval=(change - half, change + half),
+        p_value=joint.each[name],
+    )
+
+
+def _verdict(differences: Sequence[Difference], joint: Change) -> Check:
+    """Whether anything changed: each parameter at a level that allows for their number."""
+    changed = [d.name for d in differences if d.p_value < SIGNIFICANT / len(differences)]
+    if changed:
+        return Check("unchanged", False, f"{', '.join(changed)} changed by more than the uncertainty of the two tests.")
+    if joint.significant:
+        return Check(
+            "unchanged", False, f"Together the parameters changed (p = {joint.p_value:.2g}), none of them by itself."
+        )
+    return Check(
+        "unchanged", True, f"No parameter changed by more than the uncertainty of the two tests (p = {joint.p_value:.2g})."
+    )

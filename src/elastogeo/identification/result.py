@@ -1,0 +1,197 @@
+"""What an identification says: frozen results, of numbers only. Tables, figures and pages are made from them elsewhere."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from elastogeo.estimate import Confounding, Repeatability, Solution
+from elastogeo.identification.budget import Agreement, Budget
+from elastogeo.identification.change import Change
+from elastogeo.identification.check import Check
+from elastogeo.identification.models import Comparison
+from elastogeo.identification.physics import Consistency
+from elastogeo.machine import Array
+from elastogeo.observe import MachineTest
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """An identified parameter.
+
+    Attributes
+    ----------
+    name, unit, meaning : str
+    value, standard_uncertainty : float
+        In `unit`.
+    interval : tuple of 2 float
+        95 % coverage interval.
+    stands_for : dict of str to float
+        The exact combination that it represents: coefficient by name, itself first.
+    peak_to_peak : float [mm]
+        Of its part of the trace at the highest force, with the sign of the value.
+    share : float
+        Of the sum of all absolute peak-to-peak parts, 0 to 1.
+    axis : str
+        The axis it sits at; empty for the set-up.
+    elastic : bool
+        Whether a load drives it.
+    separated : bool
+        Whether what it stands for is all elastic or all geometric. If not, no name is right: the test cannot tell.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    value: float
+    standard_uncertainty: float
+    interval: tuple[float, float]
+    stands_for: dict[str, float]
+    peak_to_peak: float
+    share: float
+    axis: str
+    elastic: bool
+    separated: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """Measured and predicted readings of one run, reference taken off if one was.
+
+    Attributes
+    ----------
+    run : str
+    force : float [N]
+    pose : array, shape (m,) [rad or mm]
+        What the run file counts along: the angle of a ball bar.
+    measured, predicted : array, shape (m,) [mm]
+    """
+
+    run: str
+    force: float
+    pose: Array
+    measured: Array
+    predicted: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """Fit at one force level.
+
+    Attributes
+    ----------
+    force : float [N]
+    readings : int
+    rmse : float [mm]
+        Eq. 5.40.
+    fitness : float [%]
+        Eq. 5.41.
+    elastic, geometric : tuple of 2 float [mm]
+        Least and greatest predicted deviation that compliance, and that geometry without the set-up, cause (Figure 5.8).
+    """
+
+    force: float
+    readings: int
+    rmse: float
+    fitness: float
+    elastic: tuple[float, float]
+    geometric: tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Local:
+    """A local estimate from a few force levels (Eq. 4.29).
+
+    Attributes
+    ----------
+    forces : tuple of float [N]
+    solution : Solution
+    peak_to_peak : dict of str to float [mm]
+        Of each parameter's part of the trace at the highest force, signed.
+    """
+
+    forces: tuple[float, ...]
+    solution: Solution
+    peak_to_peak: dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Pattern:
+    """The response of a reading to parameters that cannot be told apart (Table 4.4).
+
+    Attributes
+    ----------
+    names : tuple of str
+    pose : array, shape (m,)
+    response : array, shape (m,)
+        Scaled to a greatest absolute value of 1.
+    """
+
+    names: tuple[str, ...]
+    pose: Array
+    response: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Identification:
+    """All that one test says.
+
+    Attributes
+    ----------
+    test : MachineTest
+        As it was given.
+    reference_force : float or None [N]
+        Force level that was taken off.
+    parameters : tuple of Parameter
+        The retained set.
+    confounding : Confounding
+    solution : Solution
+        Global estimate of the retained set (Eqs. 4.28, 5.37). Its covariance counts on independent runs where `by_run` is
+        set, on independent readings where not.
+    naive : Solution
+        The same values with the covariance that counts on independent readings.
+    by_run : bool
+        Whether the runs are enough for an uncertainty by run.
+    budget : Budget
+        Standard uncertainties with the systematic influences.
+    local_change : Change or None
+        Whether the local estimates differ by more than their uncertainty.
+    minimum_norm : dict of str to float
+        Minimum-norm solution over all parameters that were asked for.
+    traces : tuple of Trace
+    levels : tuple of Level
+    local : tuple of Local
+        From adjacent force levels.
+    repeats : Repeatability or None
+        From the levels that were repeated, if at least two were.
+    patterns : tuple of Pattern
+    rmse : float [mm]
+        Over all readings.
+    agreement : Agreement or None
+        Of the first-order budget with random draws; None if the test states no systematic influence.
+    models : Comparison or None
+        Models of the compliance against the force; None with a reference level, fewer than three levels, or no compliance.
+    consistency : Consistency or None
+        Whether the compliances agree with physics; None if none was asked for, or they are not told from geometry.
+    verdict : tuple of Check
+    """
+
+    test: MachineTest
+    reference_force: float | None
+    parameters: tuple[Parameter, ...]
+    confounding: Confounding
+    solution: Solution
+    naive: Solution
+    by_run: bool
+    budget: Budget
+    local_change: Change | None
+    minimum_norm: dict[str, float]
+    traces: tuple[Trace, ...]
+    levels: tuple[Level, ...]
+    local: tuple[Local, ...]
+    repeats: Repeatability | None
+    patterns: tuple[Pattern, ...]
+    rmse: float
+    verdict: tuple[Check, ...]
+    agreement: Agreement | None = None
+    models: Comparison | None = None
+    consistency: Consistency | None = None

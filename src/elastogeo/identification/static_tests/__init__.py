@@ -1,0 +1,40 @@
+"""What static tests show by themselves: hysteresis, straight line, Cartesian compliance, where in the drive an axis yields.
+
+Stands on the files of `identification` and the rooms below it.
+"""
+
+from elastogeo.identification.static_tests.assessment import static_results
+from elastogeo.identification.static_tests.cartesian import CartesianCompliance, Principal, Symmetry
+from elastogeo.identification.static_tests.drive_train import OnAxis, OnAxisCompliance, OnAxisPart, OnAxisRecord
+from elastogeo.identification.static_tests.hysteresis import StaticHysteresis, hysteresis
+from elastogeo.identification.static_tests.result import (
+    Cartesian,
+    LoadedPlace,
+    LoadedRun,
+    LoadStep,
+    StaticResults,
+    TwistRun,
+)
+from elastogeo.identification.static_tests.straight_line import Estimate, StaticLine, static_line
+
+__all__ = [
+    "Cartesian",
+    "CartesianCompliance",
+    "Estimate",
+    "LoadStep",
+    "LoadedPlace",
+    "LoadedRun",
+    "OnAxis",
+    "OnAxisCompliance",
+    "OnAxisPart",
+    "OnAxisRecord",
+    "Principal",
+    "StaticHysteresis",
+    "StaticLine",
+    "StaticResults",
+    "Symmetry",
+    "TwistRun",
+    "hysteresis",
+    "static_line",
+    "static_results",
+]

@@ -1,0 +1,284 @@
+"""What a static test says: beside the joint compliances, that which its own instrument shows at a glance (thesis 6.2).
+
+* `static-force`: hysteresis and static compliance of every run, the straight line through all runs of a place, and, where
+  the runs carry positions of the loaded axis, where in its drive it yields;
+* `displacement-probes`: the Cartesian compliance and stiffness, its symmetry, its principal directions;
+* `sensor-frame`: the twist of the tool at every load step, and the sensor that stands out.
+
+The columns of positions are `command_x`, `position_x` (motor encoder) and `scale_x`, for the axis X. A static test stands
+still: without a column of the command it counts as constant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from elastogeo.drive import FEEDBACKS
+from elastogeo.errors import InputError, UnsupportedError
+from elastogeo.identification.identification import identify
+from elastogeo.identification.static_tests.cartesian import Principal, cartesian_of
+from elastogeo.identification.static_tests.drive_train import OnAxis, OnAxisRecord, where_in_the_drive
+from elastogeo.identification.static_tests.hysteresis import hysteresis
+from elastogeo.identification.static_tests.result import Cartesian, LoadedPlace, LoadedRun, LoadStep, StaticResults, TwistRun
+from elastogeo.identification.static_tests.straight_line import static_line
+from elastogeo.identification.static_tests.verdict import influence_checks, loading_checks, probe_checks, twist_checks
+from elastogeo.machine import Array, Machine, loop_frames
+from elastogeo.observe import (
+    DisplacementProbes,
+    MachineTest,
+    Observations,
+    Run,
+    SensorFrame,
+    SensorTwist,
+    StaticForce,
+    instruments,
+    sensor_twist,
+)
+
+ALONG = 0.999
+"""Cosine from which two directions count as one: 2.6 degrees, a thousandth of the force."""
+
+ACROSS = 0.01
+"""Cosine below which a sensor that reads across a force gives it no sense."""
+
+STEP = 0.01
+"""Share of a run's greatest force within which readings in succession are of one load step."""
+
+MOST_MOTION = 5.0
+"""By how much [mm] an axis that stands still may be seen to move: more is a wrong unit, or a motion."""
+
+SETUP = {f"E_{axis}{point}0" for axis in "XYZ" for point in "tw"} | {"E_R0"}
+"""Parameters that are zeros of sensors: who asks for one did not zero them without load."""
+
+
+def static_results(test: MachineTest, feedback: str = "motor") -> StaticResults:
+    """What a static test says.
+
+    Parameters
+    ----------
+    test : MachineTest
+        With one of the set-ups `static-force`, `displacement-probes`, `sensor-frame`.
+    feedback : str
+        What the loaded axis closes its position loop on, `motor` encoder or `scale`; it matters only where runs carry
+        positions of the axis.
+
+    Raises
+    ------
+    InputError
+        If the test has another instrument, or a run will not do.
+    UnsupportedError
+        If the joints cannot be identified at all.
+    """
+    if not isinstance(test.setup, StaticForce | DisplacementProbes | SensorFrame):
+        raise InputError(_of_another_instrument(test))
+    if feedback not in FEEDBACKS:
+        raise InputError(f"a position loop is closed on {feedback!r}; say {' or '.join(FEEDBACKS)}")
+    observed = test.observations()
+    joints = identify(test)
+    others = (*influence_checks(test.influences), *joints.verdict)
+    if isinstance(test.setup, StaticForce):
+        places = _places(test.machine, test.runs, observed, known=test.setup.direction is not None, feedback=feedback)
+        return StaticResults(joints, places=places, verdict=(*loading_checks(places), *others))
+    if isinstance(test.setup, DisplacementProbes):
+        found = _cartesian(test.machine, observed, len(test.setup.probes), SETUP.isdisjoint(joints.confounding.labels))
+        return StaticResults(joints, cartesian=found, verdict=(*probe_checks(found), *others))
+    twists, refusal = _twists(test.setup, test.runs, observed, test.resolution)
+    return StaticResults(joints, twists=twists, refusal=refusal, verdict=(*twist_checks(twists, refusal), *others))
+
+
+def _of_another_instrument(test: MachineTest) -> str:
+    kind = type(test.setup)
+    name = next((name for name, known in instruments().items() if known is kind), kind.__name__)
+    command = "brbd" if name == "ball-roller" else "identify"
+    return (
+        f"test {test.name!r} was made with a {name}; a static test is made with static-force, displacement-probes or "
+        f"sensor-frame. For this one use: elastogeo {command}"
+    )
+
+
+def _places(
+    machine: Machine, runs: Sequence[Run], observed: Sequence[Observations], *, known: bool, feedback: str
+) -> tuple[LoadedPlace, ...]:
+    """Runs by the place where the machine stands and the line of the force."""
+    groups: list[tuple[Array, list[tuple[Run, Observations]]]] = []
+    for run, seen in zip(runs, observed, strict=True):
+        line = _line_of(seen, known=known)
+        for direction, members in groups:
+            same = np.allclose(members[0][1].commands[0], seen.commands[0], rtol=0, atol=1e-6)
+            if same and abs(direction @ line) > ALONG:
+                members.append((run, seen))
+                break
+        else:
+            groups.append((line, [(run, seen)]))
+    return tuple(_place(machine, direction, members, feedback) for direction, members in groups)
+
+
+def _line_of(seen: Observations, *, known: bool) -> Array:
+    """Unit vector, shape (3,), of the line along which a run's force acts; its sense is that of the recorded force.
+
+    A force that is recorded by components has no sense of its own: it counts as positive the way the sensor reads.
+    """
+    force, sensor = seen.wrench[:, :3], seen.direction[0, :3]
+    size = float(np.linalg.norm(force, axis=1).max())
+    if not size:
+        return np.asarray(sensor)
+    line = np.linalg.svd(force, full_matrices=False)[2][0]
+    across = float(np.linalg.norm(force - np.outer(force @ line, line), axis=1).max())
+    if across > np.sqrt(1 - ALONG**2) * size:
+        raise InputError(
+            f"run {seen.run!r}: its force does not keep to a line, it departs by {across:.3g} N of {size:.3g} N; a static "
+            f"force has one direction a run: make a run of each, or mend the load cell's zero"
+        )
+    read = float(sensor @ line)
+    across_sensor = float(line[np.argmax(np.abs(line))])
+    sense = float(force @ line @ seen.pose) if known else read if abs(read) > ACROSS else across_sensor
+    return np.asarray(line if sense > 0 else -line) + 0.0  # no minus zeros
+
+
+def _place(machine: Machine, direction: Array, members: Sequence[tuple[Run, Observations]], feedback: str) -> LoadedPlace:
+    """All that the runs of a place say."""
+    first = members[0][1]
+    cosine = float(first.direction[0, :3] @ direction)
+    sense = -1.0 if cosine < -ALONG else 1.0
+    loaded = tuple(_loaded(seen.run, seen.wrench[:, :3] @ direction, sense * seen.reading) for _, seen in members)
+    line, refusal = None, ""
+    try:
+        line = static_line(
+            np.concatenate([run.force for run in loaded]), np.concatenate([run.displacement for run in loaded])
+        )
+    except UnsupportedError as error:
+        refusal = str(error)
+    drive, drive_refusal = None, ""
+    try:
+        drive = _drive(machine, direction, members, feedback)
+    except UnsupportedError as error:
+        drive_refusal = str(error)
+    return LoadedPlace(
+        commands={axis: float(value) for axis, value in zip(machine.axes, first.commands[0], strict=True)},
+        direction=direction,
+        along=abs(cosine) > ALONG,
+        runs=loaded,
+        line=line,
+        refusal=refusal,
+        drive=drive,
+        drive_refusal=drive_refusal,
+    )
+
+
+def _loaded(run: str, force: Array, displacement: Array) -> LoadedRun:
+    try:
+        return LoadedRun(run, force, displacement, hysteresis(force, displacement))
+    except UnsupportedError as error:
+        return LoadedRun(run, force, displacement, None, str(error))
+
+
+def _drive(machine: Machine, direction: Array, members: Sequence[tuple[Run, Observations]], feedback: str) -> OnAxis | None:
+    """Where the loaded axis yields; None if the force is along none, or its positions were not recorded."""
+    first = members[0][1]
+    frames = loop_frames(machine, first.commands[:1], first.tool)
+    for joint in machine.joints:
+        axis = frames.joints[joint.name].motion.rotation[0][:, joint.direction]
+        if joint.is_rotary or abs(direction @ axis) <= ALONG:
+            continue
+        columns = {part: f"{part}_{joint.name.lower()}" for part in ("command", "position", "scale")}
+        with_any = [pair for pair in members if {columns["position"], columns["scale"]} & set(pair[0].columns)]
+        if not with_any:
+            continue
+        there = {part: _positions([run for run, _ in with_any], name) for part, name in columns.items()}
+        force = np.concatenate([seen.wrench[:, :3] @ axis for _, seen in with_any])
+        reads = float(first.direction[0, :3] @ axis)
+        deflection = np.sign(reads) * np.concatenate([seen.reading for _, seen in with_any])
+        record = OnAxisRecord(
+            axis=joint.name,
+            force=force,
+            command=np.zeros(len(force)) if there["command"] is None else there["command"],
+            motor=there["position"],
+            scale=there["scale"],
+            deflection=deflection if abs(reads) > ALONG else None,
+            run=[seen.run for _, seen in with_any for _ in range(len(seen))],
+        )
+        return where_in_the_drive(record, feedback)
+    return None
+
+
+def _positions(runs: Sequence[Run], column: str) -> Array | None:
+    """A column of all runs one after the other; None if no run has it."""
+    without = [run.name for run in runs if column not in run.columns]
+    if len(without) == len(runs):
+        return None
+    if without:
+        raise InputError(
+            f"run {without[0]!r} lacks the column {column} that other runs of this place have; record it in all, or in none"
+        )
+    for run in runs:
+        moved = float(np.ptp(run.columns[column]))
+        if moved > MOST_MOTION:
+            raise InputError(
+                f"run {run.name!r}: {column} moves by {moved:.4g} mm; a static test stands still: are they micrometres "
+                f"given as millimetres?"
+            )
+    return np.concatenate([np.asarray(run.columns[column], dtype=float) for run in runs])
+
+
+def _cartesian(machine: Machine, observed: Sequence[Observations], probes: int, zeroed: bool) -> Cartesian:
+    """The Cartesian compliance and all that can be had of it."""
+    compliance = cartesian_of(machine, observed, sensors=0 if zeroed else probes)
+    stiffness = uncertainty = symmetry = None
+    principal: tuple[Principal, ...] = ()
+    refusals = []
+    try:
+        principal = compliance.principal()
+        stiffness, covariance = compliance.stiffness()
+        uncertainty = np.sqrt(np.diag(covariance)).reshape(3, 3)
+    except UnsupportedError as error:
+        refusals.append(str(error))
+    try:
+        symmetry = compliance.symmetry()
+    except UnsupportedError as error:
+        refusals.append(str(error))
+    return Cartesian(compliance, zeroed, stiffness, uncertainty, symmetry, principal, "; ".join(refusals[:1]))
+
+
+def _twists(
+    setup: SensorFrame, runs: Sequence[Run], observed: Sequence[Observations], resolution: float | None
+) -> tuple[tuple[TwistRun, ...], str]:
+    """The twist of every run, or why there is none."""
+    deviation = None
+    if len(setup.sensors) == 6:
+        if not resolution:
+            return (), "six sensors leave no residual: give the resolution of the readings, or add a sensor"
+        deviation = resolution / np.sqrt(12)
+    try:
+        return tuple(_twist(setup, run, seen, deviation) for run, seen in zip(runs, observed, strict=True)), ""
+    except UnsupportedError as error:
+        return (), str(error)
+
+
+def _twist(setup: SensorFrame, run: Run, seen: Observations, deviation: float | None) -> TwistRun:
+    readings = np.column_stack([run.columns[name] for name in setup.readings])
+    force = seen.pose[: len(readings)]
+    found = sensor_twist(setup.sensors, readings, deviation)
+    try:
+        compliance = tuple(static_line(force, component).compliance for component in found.twist.T)
+    except UnsupportedError:
+        compliance = ()
+    return TwistRun(run.name, force, found, tuple(_steps(force, found)), compliance)
+
+
+def _steps(force: Array, found: SensorTwist) -> Iterator[LoadStep]:
+    """Means of readings in succession whose force stays where it is."""
+    band = STEP * float(np.abs(force).max())
+    first = 0
+    for last in range(1, len(force) + 1):
+        if last < len(force) and abs(force[last] - force[first]) <= band:
+            continue
+        count = last - first
+        yield LoadStep(
+            force=float(force[first:last].mean()),
+            readings=count,
+            twist=found.twist[first:last].mean(axis=0),
+            standard_uncertainty=found.standard_uncertainty / np.sqrt(count),
+        )
+        first = last

@@ -1,0 +1,5 @@
+"""Instruments with two balls and a bar between them."""
+
+from elastogeo.observe.bars.ball_bar import LoadedBallBar
+
+__all__ = ["LoadedBallBar"]

@@ -1,0 +1,175 @@
+"""The ball bar, loaded or not: it reads the change of the distance of two balls, and pushes them apart along it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from elastogeo.errors import InputError
+from elastogeo.machine import Array, Feed, LengthPerPressure, Machine, OptionalPoint, follow
+from elastogeo.observe.circle import Circle
+from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
+from elastogeo.observe.imperfection import Imperfection
+from elastogeo.observe.instruments import instrument
+from elastogeo.observe.measurement import Respond, Run
+from elastogeo.observe.observations import Observations, check_observations
+
+MOST_TURNS = 10.0
+"""Turns that a run may have."""
+
+MOST_DEVIATION = 0.1
+"""Share of the radius that a reading may deviate."""
+
+
+@instrument("loaded-ball-bar")
+@dataclass(frozen=True, slots=True)
+class LoadedBallBar:
+    """Set-up of a loaded ball bar.
+
+    Attributes
+    ----------
+    circle : Circle
+        Path and centre.
+    feed : float [mm/s]
+        Speed of the tool ball along the circle.
+    tool : tuple of 3 float or None [mm]
+        Tool ball in the frame of the last tool-branch carriage; None for the machine's own tool point.
+    calibration : Calibration
+        Force against pressure.
+    setup_deflection : float [mm/bar]
+        Deflection of the workpiece ball's post per pressure (2.33 um/bar in the thesis); zero switches the correction off.
+    """
+
+    circle: Circle
+    feed: Feed
+    tool: OptionalPoint = None
+    calibration: Calibration = THESIS_CALIBRATION
+    setup_deflection: LengthPerPressure = 0.0
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Columns that a run file must have."""
+        return ("angle", "radial")
+
+    @property
+    def pose_quantity(self) -> str:
+        """The angle in the plane of the circle."""
+        return "angle"
+
+    def observe(self, machine: Machine, run: Run) -> Observations:
+        """The observations that a run amounts to.
+
+        The sensitive direction is the bar's axis, from the workpiece ball to the tool ball (Eqs. 4.11, 4.17); the bar
+        pushes the tool along it with the run's force (4.22, no moment: the balls' friction counts as none).
+
+        Raises
+        ------
+        InputError
+            If the run lacks a column, a force or readings, or has a value that is no finite number.
+        """
+        angle = self._angle(run)
+        tool = None if self.tool is None else np.array(self.tool)
+        rate = run.sense * self.feed / self.circle.radius
+        commands = follow(machine, self.circle.centre, self.circle.motion(angle, rate), tool)
+        force = self.force(run)
+        direction = np.zeros((len(angle), 6), order="F")
+        np.divide(commands.displacement, self.circle.radius, out=direction[:, :3])
+        correction = self.deflection(run, direction)
+        observations = Observations(
+            run=run.name,
+            force=force,
+            pose=angle,
+            commands=commands.position,
+            velocity=commands.velocity,
+            acceleration=commands.acceleration,
+            centre=np.array([self.circle.centre.get(axis, 0.0) for axis in machine.axes]),
+            direction=direction,
+            wrench=force * direction,
+            reading=run.columns["radial"] - correction,
+            correction=correction,
+            tool=np.array(machine.tool) if tool is None else tool,
+            workpiece=commands.ball,
+            length=self.circle.radius,
+        )
+        check_observations(observations)
+        _check_units(run, self.circle.radius)
+        return observations
+
+    def observe_all(self, machine: Machine, runs: Sequence[Run]) -> tuple[Observations, ...]:
+        """The observations of every run, each by itself."""
+        return tuple(self.observe(machine, run) for run in runs)
+
+    def simulated(
+        self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
+    ) -> Run:
+        """The run with the readings that the bar would give at its angles."""
+        angle = self._angle(replace(run, columns={**run.columns, "radial": run.columns["angle"]}))
+        blank = self.observe(machine, replace(run, columns={"angle": angle, "radial": np.zeros(len(angle))}))
+        true = respond(replace(blank, wrench=blank.wrench * imperfection.force_factor(random)))
+        # What the set-up's correction will take off is what the raw reading has on top.
+        radial = imperfection.added_to(true - blank.reading, angle, blank.force, random)
+        return replace(run, columns={"angle": angle, "radial": radial})
+
+    def force(self, run: Run) -> float:
+        """Force [N] with which the bar pushed in a run.
+
+        Raises
+        ------
+        InputError
+            If the run has neither a force nor a pressure.
+        """
+        if run.force is not None:
+            return run.force
+        if run.pressure is None:
+            raise InputError(f"run {run.name!r} has neither a force nor a pressure; give force_N or pressure_bar")
+        return force_from_pressure(run.pressure, self.calibration)
+
+    def deflection(self, run: Run, direction: Array) -> Array:
+        """Deflection [mm] of the workpiece ball's post in a run, which the reading holds and the machine does not.
+
+        Eq. 5.38: `delta = P 2.33 cos^2(elevation)`, with the elevation of the bar over the horizontal plane.
+
+        Raises
+        ------
+        InputError
+            If the correction is on and the run has no pressure.
+        """
+        if not self.setup_deflection:
+            return np.zeros(len(direction))
+        if run.pressure is None:
+            raise InputError(f"run {run.name!r} has no pressure, which the set-up deflection correction (Eq. 5.38) needs")
+        return np.asarray(self.setup_deflection * run.pressure * (1.0 - direction[:, 2] ** 2))
+
+    def _angle(self, run: Run) -> Array:
+        missing = [name for name in self.quantities if name not in run.columns]
+        if missing:
+            raise InputError(
+                f"run {run.name!r} lacks the column {', '.join(missing)}; a loaded ball bar needs angle_deg, radial_um"
+            )
+        angles, readings = (len(run.columns[name]) for name in self.quantities)
+        if angles != readings:
+            raise InputError(f"run {run.name!r} has {angles} angles and {readings} readings; every reading needs its angle")
+        if not readings:
+            raise InputError(f"run {run.name!r} has no reading")
+        return np.asarray(run.columns["angle"])
+
+
+def _check_units(run: Run, radius: float) -> None:
+    """Refuse angles and deviations of a size that only a wrong unit gives.
+
+    Raises
+    ------
+    InputError
+        If the angles span more than `MOST_TURNS`, or a deviation is more than `MOST_DEVIATION` of the radius.
+    """
+    turns = float(np.ptp(run.columns["angle"])) / (2 * np.pi)
+    if turns > MOST_TURNS:
+        raise InputError(f"run {run.name!r}: the angles span {turns:.3g} turns; are they degrees given as radians?")
+    most = float(np.abs(run.columns["radial"]).max())
+    if most > MOST_DEVIATION * radius:
+        raise InputError(
+            f"run {run.name!r}: a reading of {most:.3g} mm on a radius of {radius:g} mm; look at the units of both: "
+            f"are they micrometres given as millimetres, or radii instead of deviations?"
+        )

@@ -1,0 +1,162 @@
+"""The force of a ball on the roller that is pressed against it, from the currents of the drives that press it.
+
+What a motor takes beyond its own torque balance holds the reaction of the force (Eqs. 6.6, 6.10, 6.11); by virtual work the
+reactions of all drives give the force at the tool (6.15), whose part along the line of centres is the contact's: the roller
+rolls, so that it takes no other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from elastogeo.drive import (
+    FeedDrive,
+    TorqueBalance,
+    force_from_effort,
+    motion_columns,
+    tool_force,
+)
+from elastogeo.errors import UnsupportedError
+from elastogeo.machine import Array, Machine
+from elastogeo.observe.observations import ObservedInfluence
+from elastogeo.observe.rollers.track import Track
+
+_WORST_CONDITION = 1e4
+"""Of the harmonics on the samples that count, scaled: beyond it a gap in them is so wide that they would be made up."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContactForce:
+    """The force along the line of centres.
+
+    Attributes
+    ----------
+    force : array, shape (m,) [N]
+        Positive where the ball pushes the roller away.
+    scatter : float [N]
+        Root mean square of what the harmonics leave of the samples.
+    influences : tuple of (label, standard uncertainty, degrees of freedom, array of shape (m,))
+        Change of the force per unit of what is uncertain in the drives.
+    """
+
+    force: Array
+    scatter: float
+    influences: tuple[tuple[str, float, float, Array], ...]
+
+
+def contact_force(
+    machine: Machine,
+    track: Track,
+    drives: Sequence[FeedDrive],
+    balances: Mapping[str, TorqueBalance],
+    harmonics: int,
+    tool: Array | None = None,
+) -> ContactForce:
+    """The force of the contact along a track.
+
+    Parameters
+    ----------
+    machine : Machine
+    track : Track
+    drives : sequence of FeedDrive
+        Of the linear axes that press.
+    balances : mapping of str to TorqueBalance
+        By axis.
+    harmonics : int
+        Of the turn, to which the forces of the drives are smoothed over the samples at which they move fast enough; 0 for
+        the samples themselves.
+    tool : array, shape (3,) [mm], optional
+
+    Raises
+    ------
+    UnsupportedError
+        If the samples that count leave so wide a gap in the turn that its harmonics are not determined.
+    """
+    axes = [drive.axis for drive in drives]
+    smooth = {axis: _smoother(track, axis, balances[axis].model.least_speed, harmonics) for axis in axes}
+
+    def along(axis: str, held: Array) -> Array:
+        """The force along the line of centres, of the force [N] that one drive holds."""
+        forces = np.zeros((len(held), len(axes)))
+        forces[:, axes.index(axis)] = -held
+        return np.asarray(np.einsum("mi,mi->m", track.direction, tool_force(machine, track.commands, forces, axes, tool)))
+
+    force, scatter = np.zeros(len(track.angle)), 0.0
+    influences: list[tuple[str, float, float, Array]] = []
+    for drive in drives:
+        axis, balance, record = drive.axis, balances[drive.axis], track.records[drive.axis]
+        samples = force_from_effort(drive, balance.disturbance(record))
+        held = smooth[axis](samples)
+        scatter += float(np.mean(np.square(samples - held)[_counts(track, axis, balance.model.least_speed)]))
+        part = along(axis, held)
+        force += part
+        if drive.relative_uncertainty:
+            influences.append((f"force per current of {axis}", drive.relative_uncertainty, np.inf, part))
+        columns = motion_columns(record, balance.model)[1]
+        for size, freedom, change in _independent(balance):
+            moved = -force_from_effort(drive, columns @ change)
+            influences.append((f"friction and inertia of {axis}", size, freedom, along(axis, smooth[axis](moved))))
+    return ContactForce(force, float(np.sqrt(scatter)), tuple(influences))
+
+
+def observed_influences(
+    contact: ContactForce, push: Array, setup_compliance: Array, setup_uncertainty: float | None
+) -> tuple[ObservedInfluence, ...]:
+    """What is uncertain in drives and set-up, as it enters wrench and reading.
+
+    Parameters
+    ----------
+    contact : ContactForce
+        Along m samples.
+    push : array, shape (m, 6)
+        Unit wrench of the ball on the roller.
+    setup_compliance : array, shape (m,) [mm/N]
+        By which the force takes the set-up's deflection off the reading.
+    setup_uncertainty : float or None [mm/N]
+        Standard uncertainty of that compliance.
+    """
+    drives = tuple(
+        ObservedInfluence(label, size, freedom, change[:, np.newaxis] * push, -setup_compliance * change)
+        for label, size, freedom, change in contact.influences
+    )
+    if not setup_uncertainty:
+        return drives
+    return (*drives, ObservedInfluence("set-up compliance", setup_uncertainty, np.inf, np.zeros_like(push), -contact.force))
+
+
+def _independent(balance: TorqueBalance) -> list[tuple[float, float, Array]]:
+    """Independent changes of the parameters of a balance: standard deviation 1, degrees of freedom, change, shape (p,)."""
+    if not balance.covariance.any():
+        return []
+    scale = np.sqrt(np.diag(balance.covariance))
+    scale = np.where(scale > 0, scale, 1.0)
+    values, vectors = np.linalg.eigh(balance.covariance / np.outer(scale, scale))
+    freedom = float(np.min(balance.degrees_of_freedom))
+    return [
+        (1.0, freedom, scale * vector * np.sqrt(value)) for value, vector in zip(values, vectors.T, strict=True) if value > 0
+    ]
+
+
+def _counts(track: Track, axis: str, least_speed: float) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    return np.asarray(np.abs(track.records[axis].velocity) >= least_speed)
+
+
+def _smoother(track: Track, axis: str, least_speed: float, harmonics: int) -> Callable[[Array], Array]:
+    """Least squares of harmonics of the turn over the samples at which an axis moves."""
+    if not harmonics:
+        return lambda values: values
+    order = np.arange(1, harmonics + 1)
+    waves = np.outer(track.angle, order)
+    basis = np.column_stack([np.ones(len(track.angle)), np.cos(waves), np.sin(waves)])
+    counts = _counts(track, axis, least_speed)
+    Q, R = np.linalg.qr(basis[counts])
+    if len(Q) < len(R) or np.linalg.cond(R) > _WORST_CONDITION:
+        raise UnsupportedError(
+            f"run {track.run!r}: the samples at which {axis} moves do not determine {harmonics} harmonics of a turn; record "
+            f"full turns, or set harmonics = 0 in the test's set-up to take each sample by itself"
+        )
+    return lambda values: basis @ solve_triangular(R, Q.T @ values[counts])

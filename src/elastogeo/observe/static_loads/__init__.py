@@ -1,0 +1,17 @@
+"""Instruments that stand still while a load comes and goes: one sensor, three probes, a frame of sensors."""
+
+from elastogeo.observe.static_loads.probes import DisplacementProbes
+from elastogeo.observe.static_loads.sensor_frame import Sensor, SensorFrame, sensitivities
+from elastogeo.observe.static_loads.sensor_twist import SensorTwist, check_sees_twist, sensor_twist
+from elastogeo.observe.static_loads.static_force import StaticForce
+
+__all__ = [
+    "DisplacementProbes",
+    "Sensor",
+    "SensorFrame",
+    "SensorTwist",
+    "StaticForce",
+    "check_sees_twist",
+    "sensitivities",
+    "sensor_twist",
+]

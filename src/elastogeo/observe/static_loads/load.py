@@ -1,0 +1,216 @@
+"""What static load tests share: where the machine stands, which way the force acts, how it is recorded.
+
+The force acts between tool and workpiece: on the tool as recorded, on the workpiece as its reaction. It is recorded along a
+known direction (column `force`, or one force for the whole run), or by components (columns `force_x`, `force_y`, `force_z`).
+**It is not the weight of a part that only stands on the table:** that one loads the joints below it and not the tool.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from elastogeo.errors import InputError
+from elastogeo.machine import Array, Machine
+from elastogeo.observe.circle import Direction
+from elastogeo.observe.imperfection import Imperfection
+from elastogeo.observe.measurement import Run
+
+COMPONENTS = ("force_x", "force_y", "force_z")
+"""Columns [N] of a force that is recorded by components, along the axes of the frame in which directions are given."""
+
+MOST_DISPLACEMENT = 5.0
+"""Reading [mm] that a static test may have: more is a wrong unit, or no machine tool."""
+
+_STANDING = 1e-6
+"""Positions [mm, rad] of one run may differ by this much: it is to stand still."""
+
+
+def unit_vector(direction: Direction, what: str) -> Array:
+    """A direction as a unit vector, shape (3,).
+
+    Raises
+    ------
+    InputError
+        If it is no three finite numbers, or all are zero; `what` names it.
+    """
+    vector = np.asarray(direction, dtype=float)
+    if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
+        raise InputError(f"{what} is {direction}; a direction is three finite numbers that are not all zero")
+    return np.asarray(vector / np.linalg.norm(vector))
+
+
+def unit_vectors(directions: Sequence[Direction], what: str) -> Array:
+    """Directions as unit vectors, shape (k, 3); each is named by its number.
+
+    Raises
+    ------
+    InputError
+        If there is none, or one is no direction.
+    """
+    if not directions:
+        raise InputError(f"there is no {what}; give each its direction")
+    return np.array([unit_vector(direction, f"{what} {k}") for k, direction in enumerate(directions, 1)])
+
+
+def force_columns(direction: Direction | None) -> tuple[str, ...]:
+    """Columns that say the force of every reading: along a known direction, or by components if there is none."""
+    return COMPONENTS if direction is None else ("force",)
+
+
+def recorded(run: Run, columns: Sequence[str], optional: str = "") -> dict[str, Array]:
+    """The columns of a run that an instrument needs, all of one length.
+
+    Parameters
+    ----------
+    run : Run
+    columns : sequence of str
+    optional : str
+        One of them that need not be there.
+
+    Raises
+    ------
+    InputError
+        If one is missing, they differ in length, or there is no reading.
+    """
+    missing = [name for name in columns if name not in run.columns and name != optional]
+    if missing:
+        there = ", ".join(run.columns) or "none"
+        raise InputError(f"run {run.name!r} lacks the column {', '.join(missing)}; its columns are: {there}")
+    found = {name: np.asarray(run.columns[name]) for name in columns if name in run.columns}
+    lengths = {name: len(values) for name, values in found.items()}
+    if len(set(lengths.values())) > 1:
+        said = ", ".join(f"{count} of {name}" for name, count in lengths.items())
+        raise InputError(f"run {run.name!r} has {said}; every reading needs one value of each")
+    if not max(lengths.values(), default=0):
+        raise InputError(f"run {run.name!r} has no reading")
+    return found
+
+
+def check_displacements(run: Run, names: Sequence[str]) -> None:
+    """Refuse displacements of a size that only a wrong unit gives.
+
+    Raises
+    ------
+    InputError
+        If one is greater than `MOST_DISPLACEMENT`.
+    """
+    for name in names:
+        most = float(np.abs(run.columns[name]).max())
+        if most > MOST_DISPLACEMENT:
+            raise InputError(
+                f"run {run.name!r}: {name} reaches {most:.4g} mm; are they micrometres given as millimetres, or readings "
+                f"whose zero was not taken off?"
+            )
+
+
+def force_vectors(run: Run, direction: Direction | None, count: int, level: float | None) -> Array:
+    """Force on the tool at every reading, shape (count, 3) [N], along the axes in which the direction is given.
+
+    Parameters
+    ----------
+    run : Run
+    direction : 3-vector or None
+        Of the force; None if it is recorded by components.
+    count : int
+        Of the readings.
+    level : float or None [N]
+        Force of the whole run, for a run without a column `force`.
+
+    Raises
+    ------
+    InputError
+        If the force is not known, or is no finite number at some reading.
+    """
+    if direction is None:
+        force = np.column_stack([recorded(run, COMPONENTS)[name] for name in COMPONENTS])
+    else:
+        size = run.columns.get("force", level)
+        if size is None:
+            raise InputError(f"run {run.name!r} has no force: record a column force_N, or give force_N for the whole run")
+        force = np.outer(np.broadcast_to(size, count), unit_vector(direction, "the direction of the force"))
+    wrong = np.flatnonzero(~np.isfinite(force).all(axis=1))
+    if len(wrong):
+        raise InputError(f"run {run.name!r}: the force of reading {wrong[0] + 1} is no finite number; take the reading out")
+    return np.asarray(force)
+
+
+def force_sizes(force: Array, direction: Direction | None) -> Array:
+    """Signed size of a force, shape (m,) [N], along its direction; its length if it has no known one."""
+    if direction is None:
+        return np.asarray(np.linalg.norm(force, axis=1))
+    return np.asarray(force @ unit_vector(direction, "the direction of the force"))
+
+
+def force_level(sizes: Array, level: float | None) -> float:
+    """Force level [N] of a run: as given, else the force of greatest size, with its sign."""
+    return level if level is not None else float(sizes[np.argmax(np.abs(sizes))])
+
+
+def static_commands(machine: Machine, run: Run, pose: Mapping[str, float]) -> dict[str, float]:
+    """Axis commands at which a run stands [mm, rad]: columns named as an axis (`x`, `c`) go before the set-up's pose.
+
+    Raises
+    ------
+    InputError
+        If the machine moves within the run.
+    """
+    for axis in pose:
+        machine.index(axis)
+    commands = dict(pose)
+    for axis in machine.axes:
+        position = run.columns.get(axis.lower())
+        if position is None or not len(position):
+            continue
+        if not np.isfinite(position).all():
+            raise InputError(f"run {run.name!r}: a position of axis {axis} is no finite number; take the reading out")
+        if np.ptp(position) > _STANDING:
+            raise InputError(
+                f"run {run.name!r}: axis {axis} moves by {np.ptp(position):.4g} (mm or rad); a static test stands "
+                f"still: make a run of each place"
+            )
+        commands[axis] = float(position[0])
+    return commands
+
+
+def commands_row(machine: Machine, commands: Mapping[str, float]) -> Array:
+    """Axis commands as one row, shape (1, n) [mm, rad]; an axis not named is at zero."""
+    return np.array([[commands.get(axis, 0.0) for axis in machine.axes]])
+
+
+def with_lever(force: Array, lever: Array) -> Array:
+    """Wrench at the functional point, shape (m, 6) [N, N mm], of a force, shape (m, 3), that acts at a lever from it."""
+    return np.asfortranarray(np.hstack([force, np.cross(lever, force)]))
+
+
+def read_by(imperfection: Imperfection, true: Array, sensors: int, random: np.random.Generator) -> list[Array]:
+    """Readings of each sensor, shape (m,) each, with its imperfections, of true readings one sensor after the other.
+
+    Noise and resolution only: eccentricity and residues belong to instruments that turn.
+    """
+    return [imperfection.noisy(part, random) for part in np.split(true, sensors)]
+
+
+def planned(machine: Machine, run: Run, direction: Direction | None, *, ramp: bool) -> dict[str, Array]:
+    """The columns of a run that is to be simulated: places and forces as they stand, without readings.
+
+    Where a run has no column of its force, one turn of its column `angle` is a loading cycle from zero to the run's force
+    and back, or (if it is no ramp) every angle is a reading at this force.
+
+    Raises
+    ------
+    InputError
+        If there is neither a force nor a force level.
+    """
+    known = {"force", *COMPONENTS, *(axis.lower() for axis in machine.axes)}
+    columns = {name: np.asarray(values) for name, values in run.columns.items() if name in known}
+    if "angle" in run.columns and not {"force", *COMPONENTS} & set(columns):
+        if run.force is None or direction is None:
+            raise InputError(
+                f"run {run.name!r} cannot be simulated: it has no force; give force_N for the whole run and a direction, "
+                f"or a column of its force"
+            )
+        angle = np.asarray(run.columns["angle"])
+        columns["force"] = run.force * ((1 - np.cos(angle)) / 2 if ramp else np.ones_like(angle))
+    return columns

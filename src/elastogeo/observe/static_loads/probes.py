@@ -1,0 +1,178 @@
+"""Displacement probes about a loaded tool ball while the table turns: the Cartesian stiffness test of thesis 6.2, ref. 4.
+
+A bar pushes the tool ball with a known force; three displacement sensors read how the ball moves relative to the table. As
+the table turns, X and Y keep the ball at its place on it, and the force turns in the foundation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from elastogeo.errors import InputError
+from elastogeo.machine import Array, AxisCommands, Machine, Motion, OptionalPoint, follow, loop_frames
+from elastogeo.observe.circle import Direction
+from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
+from elastogeo.observe.imperfection import Imperfection
+from elastogeo.observe.instruments import instrument
+from elastogeo.observe.measurement import Respond, Run
+from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.static_loads.load import (
+    COMPONENTS,
+    check_displacements,
+    force_level,
+    force_sizes,
+    force_vectors,
+    read_by,
+    recorded,
+    unit_vector,
+    unit_vectors,
+    with_lever,
+)
+
+MOST_TURNS = 10.0
+"""Turns that a run may have."""
+
+
+@instrument("displacement-probes")
+@dataclass(frozen=True, slots=True)
+class DisplacementProbes:
+    """Set-up of a loaded bar and displacement probes.
+
+    A run has a column `angle` and one column per probe, `displacement_1`, `displacement_2`, ...; each of its rows is one
+    observation of every probe, probe after probe. The force is that of the run, or a column `force`, or the columns
+    `force_x`, `force_y`, `force_z` if the bar has no known direction. The probes' zeros are parameters like others: ask for
+    `E_Xw0`, `E_Yw0`, `E_Zw0` with the compliances (`E_Xt0`, ... for probes that do not turn), or zero the probes without
+    load. Motion counts as quasi-static: no velocity.
+
+    Attributes
+    ----------
+    probes : tuple of 3-vector
+        Directions in which a displacement of the tool ball counts as positive; they need not be orthogonal.
+    bar : 3-vector or None
+        Direction of the force on the tool: from the workpiece ball to the tool ball, for a bar that pushes.
+    centre : mapping of str to float [mm, rad]
+        Axis commands where the rotary axes are not turned; they set the place of the ball on the table.
+    rotary_turn : mapping of str to float
+        How far each rotary axis turns per angle of the readings: `{ C = 1 }` for the table.
+    bar_in_workpiece, probes_in_workpiece : bool
+        Whether the bar (or the components of the force), and the probes, are fixed to the turning workpiece rather than to
+        the foundation.
+    tool : tuple of 3 float or None [mm]
+        Tool ball in the frame of the last tool-branch carriage; None for the machine's own tool point.
+    calibration : Calibration
+        Force against pressure, for runs that give a pressure.
+    """
+
+    probes: tuple[Direction, ...]
+    bar: Direction | None = None
+    centre: AxisCommands = field(default_factory=dict)
+    rotary_turn: Mapping[str, float] = field(default_factory=dict)
+    bar_in_workpiece: bool = True
+    probes_in_workpiece: bool = True
+    tool: OptionalPoint = None
+    calibration: Calibration = THESIS_CALIBRATION
+
+    def __post_init__(self) -> None:
+        """Refuse directions that are none."""
+        unit_vectors(self.probes, "probe")
+        if self.bar is not None:
+            unit_vector(self.bar, "the direction of the bar")
+
+    @property
+    def readings(self) -> tuple[str, ...]:
+        """Columns of the probes."""
+        return tuple(f"displacement_{k}" for k in range(1, len(self.probes) + 1))
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Columns that a run file must have."""
+        return ("angle", *self.readings)
+
+    @property
+    def pose_quantity(self) -> str:
+        """The angle by which the rotary axes turn: not that of a circle, as every probe has its own trace over it."""
+        return "turn"
+
+    def observe(self, machine: Machine, run: Run) -> Observations:
+        """The observations that a run amounts to: every probe's readings, one probe after the other.
+
+        Raises
+        ------
+        InputError
+            If the run lacks a column or a force, or has a value that is no finite number.
+        """
+        columns = recorded(run, self.quantities)
+        angle = columns["angle"]
+        _check_turns(run, angle)
+        tool = np.array(machine.tool if self.tool is None else self.tool)
+        commands = follow(machine, self.centre, self._motion(angle), tool)
+        frame = loop_frames(machine, commands.position, tool).workpiece
+        level = self._level(run)
+        force = force_vectors(run, self.bar, len(angle), level)
+        sizes = force_sizes(force, self.bar)
+        force = np.broadcast_to(frame.vector(force) if self.bar_in_workpiece else force, (len(angle), 3))
+        directions = [
+            np.broadcast_to(frame.vector(probe) if self.probes_in_workpiece else probe, (len(angle), 3))
+            for probe in unit_vectors(self.probes, "probe")
+        ]
+        sensors = len(directions)
+        translation = np.concatenate(directions)
+        observations = Observations(
+            run=run.name,
+            force=force_level(sizes, level),
+            pose=np.tile(angle, sensors),
+            commands=_repeated(commands.position, sensors),
+            velocity=_repeated(commands.velocity, sensors),
+            acceleration=None if commands.acceleration is None else _repeated(commands.acceleration, sensors),
+            centre=np.array([self.centre.get(axis, 0.0) for axis in machine.axes]),
+            direction=np.asfortranarray(np.hstack([translation, np.zeros_like(translation)])),
+            wrench=_repeated(with_lever(force, np.zeros(3)), sensors),
+            reading=np.concatenate([columns[name] for name in self.readings]),
+            correction=np.zeros(sensors * len(angle)),
+            tool=tool,
+            workpiece=commands.ball,
+        )
+        check_observations(observations)
+        check_displacements(run, self.readings)
+        return observations
+
+    def observe_all(self, machine: Machine, runs: Sequence[Run]) -> tuple[Observations, ...]:
+        """The observations of every run, each by itself."""
+        return tuple(self.observe(machine, run) for run in runs)
+
+    def simulated(
+        self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
+    ) -> Run:
+        """The run with the displacements that the probes would give at its angles."""
+        angle = recorded(run, ["angle"])["angle"]
+        columns = {name: values for name, values in run.columns.items() if name in ("angle", "force", *COMPONENTS)}
+        zeros = dict.fromkeys(self.readings, np.zeros(len(angle)))
+        blank = self.observe(machine, replace(run, columns={**columns, **zeros}))
+        true = respond(replace(blank, wrench=blank.wrench * imperfection.force_factor(random)))
+        read = read_by(imperfection, true - blank.reading, len(self.probes), random)
+        return replace(run, columns={**columns, **dict(zip(self.readings, read, strict=True))})
+
+    def _motion(self, angle: Array) -> Motion:
+        """The tool ball stays where it is on the table, whatever turns."""
+        still = np.zeros((len(angle), 3))
+        turned = {axis: self.centre.get(axis, 0.0) + turn * angle for axis, turn in self.rotary_turn.items()}
+        return Motion(still, still, still, turned, dict.fromkeys(turned, 0.0))
+
+    def _level(self, run: Run) -> float | None:
+        if run.force is not None or run.pressure is None:
+            return run.force
+        return force_from_pressure(run.pressure, self.calibration)
+
+
+def _repeated(rows: Array, times: int) -> Array:
+    """Rows one time after the other, Fortran order."""
+    return np.asfortranarray(np.tile(rows, (times, 1)))
+
+
+def _check_turns(run: Run, angle: Array) -> None:
+    turns = float(np.ptp(angle)) / (2 * np.pi)
+    if turns > MOST_TURNS:
+        raise InputError(f"run {run.name!r}: the angles span {turns:.3g} turns; are they degrees given as radians?")

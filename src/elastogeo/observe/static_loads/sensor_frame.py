@@ -1,0 +1,189 @@
+"""A frame of displacement sensors about the tool: the full small twist of the tool relative to the workpiece.
+
+The Stiffness Workspace System (thesis 6.2, ref. 5) applies a force of known size and direction and reads twelve displacement
+sensors. Each reads `n . t + (r x n) . w`: translation t and rotation w of the body that it touches, at
+the lever r from the tool point. `sensor_twist` gives the twist itself; here the readings become
+observations, from which joint compliances are identified.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from elastogeo.errors import InputError
+from elastogeo.machine import Array, AxisCommands, Machine, OptionalPoint, Point, loop_frames, workpiece_ball
+from elastogeo.observe.circle import Direction
+from elastogeo.observe.imperfection import Imperfection
+from elastogeo.observe.instruments import instrument
+from elastogeo.observe.measurement import Respond, Run
+from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.static_loads.load import (
+    check_displacements,
+    commands_row,
+    force_columns,
+    force_level,
+    force_sizes,
+    force_vectors,
+    planned,
+    read_by,
+    recorded,
+    static_commands,
+    unit_vector,
+    with_lever,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Sensor:
+    """A displacement sensor of a frame.
+
+    Attributes
+    ----------
+    point : tuple of 3 float [mm]
+        Where it touches the body, from the tool point.
+    direction : 3-vector
+        In which a displacement of the body counts as positive.
+    """
+
+    point: Point
+    direction: Direction
+
+    def __post_init__(self) -> None:
+        """Refuse a sensor without place or direction."""
+        if not np.isfinite(self.point).all():
+            raise InputError(f"the point of a sensor is {self.point} mm; it must be three finite numbers")
+        unit_vector(self.direction, "the direction of a sensor")
+
+
+def sensitivities(sensors: Sequence[Sensor]) -> Array:
+    """What each sensor reads per unit of each twist component at the tool point, shape (k, 6) [mm/mm, mm/rad].
+
+    Raises
+    ------
+    InputError
+        If there is no sensor.
+    """
+    if not sensors:
+        raise InputError("the frame has no sensor; give each as [[setup.sensors]] with point_mm and direction")
+    n = np.array([unit_vector(sensor.direction, "the direction of a sensor") for sensor in sensors])
+    return np.hstack([n, np.cross([sensor.point for sensor in sensors], n)])
+
+
+@instrument("sensor-frame")
+@dataclass(frozen=True, slots=True)
+class SensorFrame:
+    """Set-up of a frame of displacement sensors.
+
+    A run stands still and has one column per sensor, `displacement_1`, `displacement_2`, ..., zeroed without load; runs at
+    several places name them by columns of axis positions (`x_mm`, `c_deg`). Each of its rows is one observation of every
+    sensor, sensor after sensor.
+
+    Attributes
+    ----------
+    sensors : tuple of Sensor
+        They hang on the workpiece side and touch a body on the tool side.
+    direction : 3-vector or None
+        Of the force on the tool; None if the runs record `force_x`, `force_y`, `force_z`.
+    pose : mapping of str to float [mm, rad]
+        Axis commands; an axis not named is at zero.
+    lever : tuple of 3 float [mm]
+        From the tool point to where the force acts.
+    in_workpiece : bool
+        Whether points, directions, lever and components of the force are given in the (turned) workpiece frame rather than
+        in the foundation.
+    tool : tuple of 3 float or None [mm]
+        Tool point in the frame of the last tool-branch carriage; None for the machine's own.
+    ramp : bool
+        For the simulation alone: whether a run without a column of its force loads to it and unloads (one turn of the
+        simulation's angle is one cycle), rather than being read at this force throughout.
+    """
+
+    sensors: tuple[Sensor, ...]
+    direction: Direction | None = None
+    pose: AxisCommands = field(default_factory=dict)
+    lever: Point = (0.0, 0.0, 0.0)
+    in_workpiece: bool = False
+    tool: OptionalPoint = None
+    ramp: bool = True
+
+    def __post_init__(self) -> None:
+        """Refuse a frame without sensors, and a direction that is none."""
+        sensitivities(self.sensors)
+        if self.direction is not None:
+            unit_vector(self.direction, "the direction of the force")
+
+    @property
+    def readings(self) -> tuple[str, ...]:
+        """Columns of the sensors."""
+        return tuple(f"displacement_{k}" for k in range(1, len(self.sensors) + 1))
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Columns that a run file must have; `force` may be left out of a run that is given its force as a whole."""
+        return (*force_columns(self.direction), *self.readings)
+
+    @property
+    def pose_quantity(self) -> str:
+        """The size of the force."""
+        return "force"
+
+    def observe(self, machine: Machine, run: Run) -> Observations:
+        """The observations that a run amounts to: every sensor's readings, one sensor after the other.
+
+        The sensitive direction of a sensor is a twist, `(n, r x n)`: its rotation counts in mm per rad, so that the reading
+        is a displacement.
+
+        Raises
+        ------
+        InputError
+            If the run lacks a column or a force, moves, or has a value that is no finite number.
+        """
+        columns = recorded(run, self.quantities, optional="force")
+        count, sensors = len(columns[self.readings[0]]), len(self.sensors)
+        tool = np.array(machine.tool if self.tool is None else self.tool)
+        place = static_commands(machine, run, self.pose)
+        commands = np.repeat(commands_row(machine, place), count * sensors, axis=0)
+        frame = loop_frames(machine, commands[:1], tool).workpiece
+        seen, lever = sensitivities(self.sensors), np.array([self.lever])
+        force = force_vectors(run, self.direction, count, run.force)
+        sizes = force_sizes(force, self.direction)
+        if self.in_workpiece:
+            seen = np.hstack([frame.vector(seen[:, :3]), frame.vector(seen[:, 3:])])
+            lever, force = frame.vector(lever), frame.vector(force)
+        observations = Observations(
+            run=run.name,
+            force=force_level(sizes, run.force),
+            pose=np.tile(sizes, sensors),
+            commands=commands,
+            velocity=np.zeros_like(commands),
+            acceleration=np.zeros_like(commands),
+            centre=np.array([self.pose.get(axis, 0.0) for axis in machine.axes]),
+            direction=np.asfortranarray(np.repeat(seen, count, axis=0)),
+            wrench=np.asfortranarray(np.tile(with_lever(force, lever), (sensors, 1))),
+            reading=np.concatenate([columns[name] for name in self.readings]),
+            correction=np.zeros(count * sensors),
+            tool=tool,
+            workpiece=workpiece_ball(machine, place, tool),
+        )
+        check_observations(observations)
+        check_displacements(run, self.readings)
+        return observations
+
+    def observe_all(self, machine: Machine, runs: Sequence[Run]) -> tuple[Observations, ...]:
+        """The observations of every run, each by itself."""
+        return tuple(self.observe(machine, run) for run in runs)
+
+    def simulated(
+        self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
+    ) -> Run:
+        """The run with the displacements that the sensors would give at its forces."""
+        columns = planned(machine, run, self.direction, ramp=self.ramp)
+        count = max(map(len, (columns or run.columns).values()), default=0)
+        zeros = dict.fromkeys(self.readings, np.zeros(count))
+        blank = self.observe(machine, replace(run, columns={**columns, **zeros}))
+        true = respond(replace(blank, wrench=blank.wrench * imperfection.force_factor(random)))
+        read = read_by(imperfection, true - blank.reading, len(self.sensors), random)
+        return replace(run, columns={**columns, **dict(zip(self.readings, read, strict=True))})

@@ -1,0 +1,322 @@
+"""Physics of the joints: the constrained estimate, the verdict on a negative C_CCY, and what reciprocity buys."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.special import stdtr
+
+from elastogeo.errors import InputError
+from elastogeo.estimate import Confounding, Solution, confounding, solve
+from elastogeo.identification import consistency_of, identify, merged, run_systems, systems_of
+from elastogeo.identification.physics import (
+    CONSISTENT,
+    CONTRADICTED,
+    WITHIN_NOISE,
+    ReciprocalSource,
+    consistency,
+    joint_blocks,
+    reciprocal_sources,
+    reciprocity,
+)
+from elastogeo.machine import Array
+from elastogeo.observe import MachineTest, Observations
+from elastogeo.sources import Situation, Source, select_sources, simulate
+
+MakeTest = Callable[..., MachineTest]
+
+SIX = ("C_XXX", "C_XYX", "C_YYY", "C_CXY", "C_CYY", "C_CCY")
+TABLE_4_6 = dict(zip(SIX, (7.61e-5, 2.27e-7, 6.05e-5, 1.08e-9, 5.35e-10, -1.73e-11), strict=True))
+TABLE_4_8 = dict(zip(SIX, (5.82e-5, -1.69e-6, 6.02e-5, 4.02e-7, -5.64e-8, -7.66e-11), strict=True))
+TABLE_4_8_DEVIATION = (2.16e-7, 1.64e-8, 1.88e-7, 1.12e-9, 7.30e-10, 9.98e-13)
+"""Of one pair of five repeats at two levels: 4 degrees of freedom at least, 8 at most."""
+
+PHYSICAL = {
+    "C_XXX": 5e-5,
+    "C_YYX": 2e-5,
+    "C_XYX": 1e-6,
+    "C_YXX": 1e-6,
+    "C_XXY": 2e-5,
+    "C_YYY": 4e-5,
+    "C_CCY": 4e-10,
+    "C_CXY": 5e-8,
+    "C_XCY": 5e-8,
+    "C_CYY": -6e-8,
+    "C_YCY": -6e-8,
+}
+
+
+@pytest.fixture(scope="module")
+def planar(make_test: MakeTest) -> tuple[tuple[Source, ...], Confounding]:
+    """The 18 planar compliances of the thesis's circle, and what it tells apart of them."""
+    test = make_test("wFYXt", [100.0])
+    systems = systems_of(test)
+    found = confounding(merged(systems.runs), SIX, systems.ceilings)
+    assert found.retained == SIX
+    return systems.sources, found
+
+
+def estimate(values: dict[str, float], uncertainty: tuple[float, ...], degrees: float = np.inf) -> Solution:
+    covariance = np.diag(np.square(uncertainty))
+    return Solution(tuple(values), np.array(list(values.values())), covariance, np.full(len(values), degrees), 1e-3)
+
+
+def with_noise(test: MachineTest, values: dict[str, float], noise: float, seed: int = 0) -> MachineTest:
+    random = np.random.default_rng(seed)
+    simulated = simulate(test, values, exact=False)
+    runs = tuple(
+        replace(
+            run,
+            columns={
+                **run.columns,
+                "radial": run.columns["radial"] + noise * random.standard_normal(len(run.columns["radial"])),
+            },
+        )
+        for run in simulated.runs
+    )
+    return replace(simulated, runs=runs)
+
+
+def across(observations: tuple[Observations, ...]) -> tuple[Observations, ...]:
+    """The same poses and readings with the force turned by 50 degrees from the sensitive direction, about z."""
+    c, s = np.cos(np.radians(50)), np.sin(np.radians(50))
+    turn = np.eye(6)
+    turn[:2, :2] = [[c, -s], [s, c]]
+    return tuple(replace(run, wrench=run.wrench @ turn.T) for run in observations)
+
+
+def test_the_blocks_are_the_joints_matrices(planar: tuple[tuple[Source, ...], Confounding]) -> None:
+    sources, found = planar
+    blocks = joint_blocks(sources, found.labels)
+    assert set(blocks) == {"X", "Y"}
+    for axis, block in blocks.items():
+        names = [[found.labels[k] for k in row] for row in block]
+        assert names == [[f"C_{d}{f}{axis}" for f in "XYC"] for d in "XYC"]
+
+
+def test_only_linear_compliances_are_in_a_block(make_test: MakeTest) -> None:
+    names = ("C_XXX", "E_XX1", "CF1_XXX", "H_XXX", "C_CXX", "C_YYX")
+    sources = select_sources(make_test("wFYXt").machine, names)
+    (block,) = joint_blocks(sources, names).values()
+    assert_allclose(block, [[0, -1, -1], [-1, 5, -1], [4, -1, -1]])
+    with pytest.raises(InputError, match="no source is given for C_XYX"):
+        joint_blocks(sources, ["C_XYX"])
+
+
+@pytest.mark.parametrize(("uncertainty", "state"), [(1.5e-9, WITHIN_NOISE), (1e-10, CONTRADICTED)])
+def test_the_negative_c_ccy_is_settled_by_its_uncertainty(
+    uncertainty: float, state: str, planar: tuple[tuple[Source, ...], Confounding]
+) -> None:
+    """C_CCY = -1.1e-9 rad/(N mm) stands for itself alone: no other joint can excuse its sign."""
+    sources, found = planar
+    assert found.stands_for("C_CCY") == {"C_CCY": 1.0}
+    values = TABLE_4_6 | {"C_CCY": -1.1e-9}
+    result = consistency(sources, found, estimate(values, (1e-7, 1e-8, 1e-7, 1e-9, 1e-9, uncertainty)))
+    assert result.state == state
+    assert result.distance >= 1.1e-9 / uncertainty * (1 - 1e-9)  # the cross terms of Y ask for a little more than zero
+    assert result.p_negative["C_CCY"] == pytest.approx(stdtr(np.inf, -1.1e-9 / uncertainty), rel=1e-9, abs=0)
+    assert set(result.p_negative) == {"C_XXX", "C_YYY", "C_CCY"}
+    assert result.p_joint is not None
+    both = 2 * min(result.p_joint, 3 * result.p_negative["C_CCY"])  # two looks; three signs in one of them
+    assert result.p_value == pytest.approx(min(1.0, both), rel=1e-9, abs=0)
+    assert result.violated == (("C_CCY",) if state == CONTRADICTED else ())
+    assert result.constrained["C_CCY"] > -1e-6 * uncertainty
+    assert result.constrained["C_XXX"] == pytest.approx(7.61e-5, rel=1e-6)
+    assert result.check.passed == (state != CONTRADICTED)
+    assert result.check.sentence == result.sentence
+    expected = "C_CCY, which stands for itself alone, is -1.1e-09" if state == CONTRADICTED else "which noise explains"
+    assert expected in result.sentence
+
+
+def test_the_repeats_of_table_4_8_contradict_physics(planar: tuple[tuple[Source, ...], Confounding]) -> None:
+    """Five repeats at each of two levels, 4 degrees of freedom taken: repeatable, so no noise; the model lacks something."""
+    sources, found = planar
+    by_repeats = estimate(TABLE_4_8, TABLE_4_8_DEVIATION, 4.0)
+    result = consistency(sources, found, by_repeats, metric=by_repeats.covariance)
+    assert result.state == CONTRADICTED
+    assert result.violated == ("C_CCY",)
+    assert result.p_joint is None
+    assert result.p_negative["C_CCY"] == pytest.approx(stdtr(4.0, -7.66e-11 / 9.98e-13), abs=0)
+    assert result.p_value == pytest.approx(3 * result.p_negative["C_CCY"], abs=0)  # Holm, three signs
+
+
+def test_a_sum_of_cross_terms_may_be_negative(planar: tuple[tuple[Source, ...], Confounding]) -> None:
+    sources, found = planar
+    values = dict(zip(SIX, (7e-5, -5e-5, 6e-5, -1e-7, -1e-8, 1e-9), strict=True))
+    result = consistency(sources, found, estimate(values, (1e-9, 1e-9, 1e-9, 1e-12, 1e-12, 1e-13)))
+    assert result.state == CONSISTENT
+    assert result.constrained == values
+    assert result.p_value == 1
+    assert not result.outward
+    assert not result.violated
+
+
+def test_a_cross_term_too_large_for_its_diagonals_is_found_without_a_negative_sign(
+    planar: tuple[tuple[Source, ...], Confounding],
+) -> None:
+    """C_CXY + C_XCY over twice the root of C_XXX + C_XXY times C_CCY: no joints give that."""
+    sources, found = planar
+    values = dict(zip(SIX, (7e-5, 0.0, 6e-5, 3e-6, 0.0, 1e-9), strict=True))
+    result = consistency(sources, found, estimate(values, (1e-7, 1e-7, 1e-7, 1e-8, 1e-8, 1e-11)), draws=199)
+    assert result.state == CONTRADICTED
+    assert not result.violated
+    assert result.p_joint == pytest.approx(1 / 200)
+    assert result.p_projected == pytest.approx(1 / 200)
+    assert result.outward["C_CXY"] > 0
+    constrained = result.constrained
+    assert constrained["C_CXY"] ** 2 == pytest.approx(4 * constrained["C_XXX"] * constrained["C_CCY"], rel=1e-4)
+
+
+@pytest.mark.parametrize("parameters", [("planar-xy",), ("C_*",)])
+def test_a_physical_machine_is_consistent(parameters: tuple[str, ...], make_test: MakeTest) -> None:
+    test = make_test("wFYXt", [100.0, 300.0, 500.0], parameters=parameters)
+    identification = identify(with_noise(test, PHYSICAL, 1e-5))
+    result = consistency_of(identification)
+    assert result.state == CONSISTENT
+    assert result.dimension == 6
+    assert_allclose(list(result.constrained.values()), identification.solution.values)
+
+
+def test_a_test_that_determines_nothing_restricted_says_so(make_test: MakeTest) -> None:
+    test = make_test("wFYXt", [100.0, 300.0, 500.0], parameters=("E_Xt0", "E_Yt0"))
+    result = consistency_of(identify(with_noise(test, {"E_Xt0": -1e-2}, 1e-5)))
+    assert (result.state, result.dimension) == (CONSISTENT, 0)
+    assert "restrict nothing" in result.sentence
+
+
+@pytest.mark.parametrize(("ccy", "state"), [(-1.1e-9, CONTRADICTED), (-1.5e-10, WITHIN_NOISE)])
+def test_the_verdict_from_readings_by_run(ccy: float, state: str, make_test: MakeTest) -> None:
+    test = make_test("wFYXt", [112.0, 238.0, 364.0, 490.0, 616.0, 742.0], readings=90)
+    identification = identify(with_noise(test, TABLE_4_6 | {"C_CCY": ccy}, 1e-3, seed=4))
+    assert identification.by_run
+    result = consistency_of(identification)
+    assert result.p_joint is None
+    assert result.state == state
+
+
+def test_the_verdict_does_not_depend_on_units(planar: tuple[tuple[Source, ...], Confounding]) -> None:
+    """Metres for millimetres in every parameter: same distance, same p-value, converted values."""
+    sources, found = planar
+    uncertainty = (1e-7, 1e-8, 1e-7, 1e-9, 1e-9, 1.5e-9)
+    values = TABLE_4_6 | {"C_CCY": -1.1e-9}
+    plain = consistency(sources, found, estimate(values, uncertainty))
+    metre = {source.name: 1e-3 ** ((source.component < 3) - ((source.load or 0) >= 3)) for source in sources}
+    factors = np.array([metre[name] for name in SIX])
+    combinations = found.combinations * factors[:, np.newaxis] / np.array([metre[name] for name in found.labels])
+    solution = estimate(dict(zip(SIX, np.array(list(values.values())) * factors, strict=True)), tuple(uncertainty * factors))
+    other = consistency(sources, replace(found, combinations=combinations), solution)
+    assert other.distance == pytest.approx(plain.distance, rel=1e-6)
+    assert other.p_value == pytest.approx(plain.p_value, rel=1e-6)
+    for name, factor in zip(SIX, factors, strict=True):
+        assert other.constrained[name] / factor == pytest.approx(plain.constrained[name], rel=1e-4, abs=1e-14)
+
+
+def test_physical_machines_are_called_contradictory_at_most_as_often_as_stated(make_test: MakeTest) -> None:
+    """At the least favourable truth, none of the joints giving way: 400 draws, 3 sigma are 0.033."""
+    systems = systems_of(make_test("wFYXt", [100.0, 400.0], readings=24))
+    found = confounding(merged(systems.runs), SIX)
+    free = solve(merged(systems.runs), SIX)
+    design = np.vstack([run.design for run in systems.runs])[:, [found.labels.index(name) for name in SIX]]
+    shape = np.linalg.inv(design.T @ design)
+    root, degrees = np.linalg.cholesky(shape), len(design) - 6
+    random = np.random.default_rng(8)
+    called = 0
+    for _ in range(400):
+        covariance = shape * random.chisquare(degrees) / degrees
+        drawn = replace(
+            free,
+            values=root @ random.standard_normal(6),
+            covariance=covariance,
+            degrees_of_freedom=np.full(6, float(degrees)),
+        )
+        called += consistency(systems.sources, found, drawn).state == CONTRADICTED
+    assert called / 400 < 0.05 + 0.033
+
+
+def test_a_solution_of_other_parameters_is_refused(planar: tuple[tuple[Source, ...], Confounding]) -> None:
+    sources, found = planar
+    with pytest.raises(InputError, match="it must be of C_XXX, C_XYX"):
+        consistency(sources, found, estimate({"C_XXX": 1.0}, (1.0,)))
+
+
+def test_reciprocal_sources_merge_pairs_under_the_name_that_the_thesis_keeps(make_test: MakeTest) -> None:
+    test = make_test("wFYXt", [100.0])
+    sources = select_sources(test.machine, ["planar-xy", "E_XX1", "C_ABX"])
+    together = reciprocal_sources(sources)
+    names = [f"C_{entry}{axis}" for axis in "XY" for entry in ("XX", "XY", "YY", "CX", "CY", "CC")]
+    assert sorted(source.name for source in together) == sorted([*names, "E_XX1", "C_ABX"])
+    (pair,) = (source for source in together if source.name == "C_CXY")
+    assert isinstance(pair, ReciprocalSource)
+    assert "by reciprocity also translation in x for a moment about z" in pair.meaning
+    (situation,) = (Situation(test.machine, run) for run in test.observations())
+    columns = {source.name: source.column(situation) for source in sources}
+    assert columns["C_XCY"].any()
+    assert_allclose(pair.column(situation), columns["C_CXY"] + columns["C_XCY"])
+    block = joint_blocks(together, [source.name for source in together])["Y"]
+    assert (block == block.T).all()
+    assert (block >= 0).all()
+
+
+def test_a_radial_force_cannot_test_reciprocity(make_test: MakeTest) -> None:
+    test = make_test("wFYXt", [100.0])
+    sources = select_sources(test.machine, ["planar-xy"])
+    bought = reciprocity(sources, test.machine, test.observations(), prefer=SIX)
+    assert (len(bought.free.labels), bought.free.rank) == (18, 6)
+    assert (len(bought.symmetric.labels), bought.symmetric.rank) == (12, 6)
+    assert bought.testable == 0
+    assert len(bought.pairs) == 6
+    assert bought.alone_free == ("C_CCY",)
+    assert set(bought.alone_symmetric) == {"C_CCY", "C_CXY", "C_XCY", "C_CYY", "C_YCY"}  # halves of sums, by assumption
+    assert "cannot test the assumption" in bought.sentence
+    assert "18 parameters into 12" in bought.sentence
+
+
+def test_a_force_across_the_sensitive_direction_tests_reciprocity_and_gains_by_it(make_test: MakeTest) -> None:
+    test = make_test("wFYXt", [100.0])
+    sources = select_sources(test.machine, ["planar-xy"])
+    bought = reciprocity(sources, test.machine, across(test.observations()))
+    assert bought.free.rank > 6
+    assert bought.testable > 0
+    assert bought.symmetric.rank == bought.free.rank - bought.testable
+    assert len(bought.symmetric.labels) - bought.symmetric.rank < len(bought.free.labels) - bought.free.rank
+    assert bought.symmetric.condition_scaled < bought.free.condition_scaled
+    assert set(bought.alone_free) < set(bought.alone_symmetric)
+    assert "which test the assumption" in bought.sentence
+
+
+def test_without_pairs_reciprocity_merges_nothing(make_test: MakeTest) -> None:
+    test = make_test("wFYXt", [100.0])
+    bought = reciprocity(select_sources(test.machine, ["C_XXX", "C_CXY"]), test.machine, test.observations())
+    assert not bought.pairs
+    assert "merges nothing" in bought.sentence
+
+
+def test_an_asymmetric_joint_contradicts_physics_only_where_the_force_is_across(make_test: MakeTest) -> None:
+    test = make_test("wFYXt", [100.0, 300.0], readings=60)
+    sources = select_sources(test.machine, ["planar-xy"])
+    values = PHYSICAL | {"C_CXY": 5e-8 + 4e-8, "C_XCY": 5e-8 - 4e-8}
+    for turned, state in ((False, CONSISTENT), (True, CONTRADICTED)):
+        observations = across(test.observations()) if turned else test.observations()
+        assert _state_of(sources, test, observations, values) == state
+        assert _state_of(sources, test, observations, PHYSICAL) != CONTRADICTED
+
+
+def _state_of(
+    sources: tuple[Source, ...], test: MachineTest, observations: tuple[Observations, ...], values: dict[str, float]
+) -> str:
+    random = np.random.default_rng(1)
+    read = []
+    for run in observations:
+        situation = Situation(test.machine, run)
+        reading: Array = sum(
+            (values.get(source.name, 0.0) * source.column(situation) for source in sources), np.zeros(len(run))
+        )
+        read.append(run.with_reading(reading + 1e-6 * random.standard_normal(len(run))))
+    systems = run_systems(sources, test.machine, read)
+    factor = merged(systems.runs)
+    found = confounding(factor, ceilings=systems.ceilings)
+    return consistency(sources, found, solve(factor, found.retained)).state
