@@ -109,7 +109,7 @@ def test_a_force_that_gains_energy_is_named() -> None:
 
 
 def test_a_compliance_that_may_be_zero_has_no_stiffness() -> None:
-    with pytest.raises(UnsupportedError, match="which holds zero: its stiffness is unbounded"):
+    with pytest.raises(UnsupportedError, match="which holds zero: its inverse is unbounded"):
         noisy(0, TURN @ np.diag([9e-5, 5e-5, 1e-9]) @ TURN.T).stiffness()
 
 

@@ -277,6 +277,6 @@ def test_the_rig_of_figure_6_11_is_a_straight_line() -> None:
 def test_a_flat_line_has_no_stiffness() -> None:
     random = np.random.default_rng(1)
     found = static_line(WEIGHTS, 1e-3 * random.standard_normal(9))
-    with pytest.raises(UnsupportedError, match="which holds zero: its stiffness is unbounded"):
+    with pytest.raises(UnsupportedError, match="which holds zero: its inverse is unbounded"):
         found.stiffness()
     assert_allclose(found.nonlinearity, 1e-3, atol=2e-3)

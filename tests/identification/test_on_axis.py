@@ -11,11 +11,11 @@ from numpy.testing import assert_allclose
 from scipy.stats import linregress, t
 
 from elastogeo.errors import InputError, RankError
+from elastogeo.estimate import Estimate
 from elastogeo.identification.static_tests.drive_train import (
     SERVO,
     STRUCTURE,
     TRANSMISSION,
-    OnAxisCompliance,
     OnAxisRecord,
     where_in_the_drive,
 )
@@ -123,7 +123,7 @@ def test_without_a_channel_two_springs_stay_together_and_are_named(
 ) -> None:
     record, whole = replace(simulated(), **{missing: None}), None
     if given:
-        record, whole = replace(record, deflection=None), OnAxisCompliance(WHOLE, 1e-6, 5)
+        record, whole = replace(record, deflection=None), Estimate(WHOLE, 1e-6, 5)
     found = where_in_the_drive(record, whole=whole)
     assert compliances(found) == {names: pytest.approx(value, rel=1e-9) for names, value in expected.items()}
     assert sum(part.share or 0 for part in found.parts) == pytest.approx(1.0, rel=1e-9)
@@ -134,7 +134,7 @@ def test_without_a_channel_two_springs_stay_together_and_are_named(
 
 def test_a_whole_from_another_test_brings_its_uncertainty_to_the_rest() -> None:
     record = replace(simulated(noise=1e-3), deflection=None)
-    found = where_in_the_drive(record, whole=OnAxisCompliance(WHOLE, 2e-6, 4))
+    found = where_in_the_drive(record, whole=Estimate(WHOLE, 2e-6, 4))
     outer = where_in_the_drive(replace(record, motor=None)).parts[0].compliance
     rest = found.parts[-1].compliance
     assert rest.value == pytest.approx(WHOLE - outer.value, rel=1e-12)
@@ -209,10 +209,10 @@ def test_what_does_not_fit_together_is_refused() -> None:
     with pytest.raises(InputError, match="closed on 'laser'"):
         where_in_the_drive(record, "laser")
     with pytest.raises(InputError, match="the whole twice"):
-        where_in_the_drive(record, whole=OnAxisCompliance(WHOLE, 1e-6))
+        where_in_the_drive(record, whole=Estimate(WHOLE, 1e-6))
     with pytest.raises(InputError, match="there is motor; it takes two of command, motor, scale"):
         where_in_the_drive(replace(record, command=None, scale=None))
     with pytest.raises(InputError, match="is no estimate"):
-        OnAxisCompliance(np.nan, 1.0)
+        Estimate(np.nan, 1.0)
     with pytest.raises(InputError, match="needs more than 0"):
-        OnAxisCompliance(1.0, 1.0, 0)
+        Estimate(1.0, 1.0, 0)

@@ -15,7 +15,6 @@ from math import ceil, cos, pi, sin, tan
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import butter, sosfiltfilt
 
 from elastogeo.errors import InputError
 from elastogeo.machine import Array
@@ -106,6 +105,8 @@ def smoothed(time: Array, values: Array, cutoff: float) -> Array:
     InputError
         As `differentiate`.
     """
+    from scipy.signal import sosfiltfilt  # here, where it is used: it takes half a second to import
+
     return _by_segment(time, values, cutoff, lambda sos, part: sosfiltfilt(sos, part))
 
 
@@ -167,6 +168,8 @@ def _by_segment(time: Array, values: Array, cutoff: float, apply: Callable[[Arra
         raise InputError(f"sample {where + 1} (at {time[where]:g} s) is no finite number; repair the record or cut it there")
     check_cutoff(cutoff, step)
     # One pass has 1 / sqrt(2) at its cut-off, two have a half.
+    from scipy.signal import butter
+
     sos = butter(ORDER, cutoff, fs=1 / step, output="sos")
     result = np.full(len(time), np.nan)
     for segment in _segments(time, step):

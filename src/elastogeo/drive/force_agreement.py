@@ -14,7 +14,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import correlate
 
 from elastogeo.errors import DegreesOfFreedomError, InputError, UnsupportedError
 from elastogeo.estimate import (
@@ -303,6 +302,8 @@ def compare_forces(
 
 def _correlations(current: ForceRecord, dynamometer: ForceRecord, most: float) -> tuple[Array, Array]:
     """Delays on a grid within the bound, and Pearson's correlation of the overlapping parts at each."""
+    from scipy.signal import correlate  # here, where it is used: it takes half a second to import
+
     if most == 0:
         return np.zeros(1), np.array([_pearson(*_paired(current, dynamometer, 0.0))])
     records = (current, dynamometer)
@@ -399,6 +400,8 @@ def _correlation_length(residual: Array, span: float) -> float:
     Summed up to the first lag that is twice the sum so far: further on there is only the noise of the correlation itself. Of
     a residual that swings this is a fifth of its period.
     """
+    from scipy.signal import correlate
+
     residual = residual - residual.mean()
     power = float(residual @ residual)
     if power <= len(residual) * (_ROUNDING * span) ** 2:

@@ -16,7 +16,6 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
-from scipy.optimize import brentq
 from scipy.special import fdtri
 
 from elastogeo.drive.balance import (
@@ -342,6 +341,8 @@ def _profile(factors_at: FactorsAt, ranges: Ranges, best: Point, k: int, rise: f
 
     The hull of all such values: with a sharp sign the residual jumps where the delayed velocity changes its sign.
     """
+    from scipy.optimize import brentq
+
     limit = residual(factors_at(best)) + rise
     lattice = np.linspace(ranges.low[k], ranges.high[k], _PROFILE).tolist()
 

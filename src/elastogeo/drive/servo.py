@@ -29,7 +29,6 @@ from math import inf, isfinite, pi
 import numpy as np
 from numpy.polynomial import polynomial as poly
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import minimize_scalar
 
 from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.machine import Array, Damping, Inertia, OptionalFrequency, OptionalTime
@@ -211,6 +210,8 @@ def servo_stiffness(loop: ServoLoop, frequency: Array) -> ServoStiffness:
     UnsupportedError
         If the loop is unstable.
     """
+    from scipy.optimize import minimize_scalar
+
     frequency = np.atleast_1d(np.asarray(frequency, float))
     if not (np.diff(frequency) > 0).all():
         raise InputError("the frequencies of the dynamic stiffness must rise; sort them and leave doubles out")

@@ -13,6 +13,7 @@ from elastogeo.estimate.cone import (
 )
 from elastogeo.estimate.confounding import NULL_TOLERANCE, RANK_TOLERANCE, Confounding, confounding
 from elastogeo.estimate.distributions import DISTRIBUTIONS, Influence, coverage_factor
+from elastogeo.estimate.estimate import Estimate
 from elastogeo.estimate.factor import BLOCK_ROWS, Factor, empty_factor, factor_blocks, merge, select
 from elastogeo.estimate.propagation import (
     MonteCarlo,
@@ -37,6 +38,7 @@ __all__ = [
     "Block",
     "Common",
     "Confounding",
+    "Estimate",
     "Factor",
     "Influence",
     "MonteCarlo",

@@ -11,6 +11,7 @@ from scipy.special import stdtrit
 
 from elastogeo.errors import DegreesOfFreedomError, RankError
 from elastogeo.estimate.confounding import RANK_TOLERANCE
+from elastogeo.estimate.estimate import Estimate
 from elastogeo.estimate.factor import Array, Factor, select
 
 SOLVABLE = 1e-12
@@ -61,6 +62,15 @@ class Solution:
     def standard_uncertainty(self) -> Array:
         """Standard uncertainty of each value, shape (p,) (JCGM 100, 4.2)."""
         return np.sqrt(np.diag(self.covariance))
+
+    def estimate(self, label: str) -> Estimate:
+        """One of the values, with what it is worth."""
+        at = self.labels.index(label)
+        return Estimate(float(self.values[at]), float(np.sqrt(self.covariance[at, at])), float(self.degrees_of_freedom[at]))
+
+    def estimates(self) -> tuple[Estimate, ...]:
+        """Each value with what it is worth, in the order of the labels."""
+        return tuple(self.estimate(label) for label in self.labels)
 
     def interval(self, coverage: float = 0.95) -> Array:
         """Coverage intervals, shape (p, 2), by Student's t (JCGM 100, annex G)."""

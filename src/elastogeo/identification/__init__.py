@@ -37,7 +37,6 @@ from elastogeo.identification.static_tests.cartesian import (
 )
 from elastogeo.identification.static_tests.drive_train import (
     OnAxis,
-    OnAxisCompliance,
     OnAxisPart,
     OnAxisRecord,
     where_in_the_drive,
@@ -45,7 +44,7 @@ from elastogeo.identification.static_tests.drive_train import (
 from elastogeo.identification.static_tests.hysteresis import StaticHysteresis, hysteresis
 from elastogeo.identification.static_tests.loading_branches import Branch, branches_of, turning_points
 from elastogeo.identification.static_tests.result import Cartesian, LoadedPlace, LoadedRun, LoadStep, StaticResults, TwistRun
-from elastogeo.identification.static_tests.straight_line import Estimate, StaticLine, static_line
+from elastogeo.identification.static_tests.straight_line import StaticLine, static_line
 from elastogeo.identification.systems import RunSystem, Systems, merged, noise_of, run_systems, same_force
 from elastogeo.identification.verdict import CONDITION_LIMIT
 
@@ -70,7 +69,6 @@ __all__ = [
     "Difference",
     "DriveIdentification",
     "Effect",
-    "Estimate",
     "Fault",
     "Harmonic",
     "Identification",
@@ -81,7 +79,6 @@ __all__ = [
     "Local",
     "ModelFit",
     "OnAxis",
-    "OnAxisCompliance",
     "OnAxisPart",
     "OnAxisRecord",
     "Parameter",

@@ -11,7 +11,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 from scipy.special import fdtrc, stdtrit
 
 from elastogeo.errors import RankError
@@ -214,6 +213,7 @@ def _stiffening(on_axis: Sequence[str], exponent: float) -> list[str]:
 
 def _exponent(machine: Machine, systems: Systems, retained: Sequence[str], on_axis: Sequence[str]) -> float:
     """The exponent with the least residual sum of squares, by a bounded search outside the linear solve."""
+    from scipy.optimize import minimize_scalar
 
     def left(exponent: float) -> float:
         labels = [*retained, *_stiffening(on_axis, exponent)]

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from elastogeo.errors import UnsupportedError
+from elastogeo.estimate import Estimate
 from elastogeo.identification.static_tests import (
     Cartesian,
-    Estimate,
     LoadedPlace,
     LoadedRun,
     OnAxis,

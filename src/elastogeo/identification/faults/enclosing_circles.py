@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.optimize import linprog
 
 from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.machine import Array
@@ -201,6 +200,8 @@ def _minimum_zone_step(distance: Array, direction: Array, _weight: Array) -> Arr
     Solved on the readings that stand out, to which those that the solution leaves outside are added until there are none:
     the solution is that of all readings.
     """
+    from scipy.optimize import linprog
+
     scale = float(np.ptp(distance))
     if scale == 0.0:
         return np.zeros(2)

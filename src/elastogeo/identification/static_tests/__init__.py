@@ -5,7 +5,7 @@ Stands on the files of `identification` and the rooms below it.
 
 from elastogeo.identification.static_tests.assessment import static_results
 from elastogeo.identification.static_tests.cartesian import CartesianCompliance, Principal, Symmetry
-from elastogeo.identification.static_tests.drive_train import OnAxis, OnAxisCompliance, OnAxisPart, OnAxisRecord
+from elastogeo.identification.static_tests.drive_train import OnAxis, OnAxisPart, OnAxisRecord
 from elastogeo.identification.static_tests.hysteresis import StaticHysteresis, hysteresis
 from elastogeo.identification.static_tests.result import (
     Cartesian,
@@ -15,17 +15,15 @@ from elastogeo.identification.static_tests.result import (
     StaticResults,
     TwistRun,
 )
-from elastogeo.identification.static_tests.straight_line import Estimate, StaticLine, static_line
+from elastogeo.identification.static_tests.straight_line import StaticLine, static_line
 
 __all__ = [
     "Cartesian",
     "CartesianCompliance",
-    "Estimate",
     "LoadStep",
     "LoadedPlace",
     "LoadedRun",
     "OnAxis",
-    "OnAxisCompliance",
     "OnAxisPart",
     "OnAxisRecord",
     "Principal",

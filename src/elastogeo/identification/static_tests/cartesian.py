@@ -17,9 +17,18 @@ from numpy.typing import NDArray
 from scipy.special import fdtrc, stdtrit
 
 from elastogeo.errors import DegreesOfFreedomError, InputError, RankError, UnsupportedError
-from elastogeo.estimate import Confounding, Factor, Solution, confounding, factor_blocks, merge, solve, solve_by_run
+from elastogeo.estimate import (
+    Confounding,
+    Estimate,
+    Factor,
+    Solution,
+    confounding,
+    factor_blocks,
+    merge,
+    solve,
+    solve_by_run,
+)
 from elastogeo.identification.check import Check
-from elastogeo.identification.static_tests.straight_line import Estimate, inverse
 from elastogeo.machine import Array, Machine, loop_frames
 from elastogeo.observe import Observations
 
@@ -85,7 +94,7 @@ class Principal:
         UnsupportedError
             If the interval of the compliance holds zero.
         """
-        return inverse(self.compliance)
+        return self.compliance.inverse()
 
 
 @dataclass(frozen=True, slots=True)
@@ -424,13 +433,7 @@ def _assembled(solution: Solution, found: Confounding, by_run: bool) -> Cartesia
         values[k], freedom[k] = solution.values[at], solution.degrees_of_freedom[at]
         for other, there in places:
             covariance[k, other] = solution.covariance[at, there]
-    zeros = tuple(
-        Estimate(
-            float(solution.values[at]), float(solution.standard_uncertainty[at]), float(solution.degrees_of_freedom[at])
-        )
-        for at, label in enumerate(solution.labels)
-        if label in alone and label not in ELEMENTS
-    )
+    zeros = tuple(solution.estimate(label) for label in solution.labels if label in alone and label not in ELEMENTS)
     return CartesianCompliance(
         compliance=values.reshape(3, 3),
         covariance=covariance,

@@ -28,10 +28,10 @@ from numpy.typing import NDArray
 from elastogeo.drive import FEEDBACKS
 from elastogeo.errors import DegreesOfFreedomError, InputError, RankError
 from elastogeo.estimate import (
+    Estimate,
     Factor,
     Solution,
     confounding,
-    coverage_factor,
     effective_degrees_of_freedom,
     factor_blocks,
     merge,
@@ -97,33 +97,6 @@ class OnAxisRecord:
 
 
 @dataclass(frozen=True, slots=True)
-class OnAxisCompliance:
-    """A compliance with its uncertainty.
-
-    Attributes
-    ----------
-    value, standard_uncertainty : float [mm/N]
-    degrees_of_freedom : float
-    """
-
-    value: float
-    standard_uncertainty: float
-    degrees_of_freedom: float = np.inf
-
-    def __post_init__(self) -> None:
-        """Refuse what is no estimate."""
-        if not (np.isfinite(self.value) and np.isfinite(self.standard_uncertainty) and self.standard_uncertainty >= 0):
-            raise InputError(f"a compliance of {self.value:g} +- {self.standard_uncertainty:g} mm/N is no estimate")
-        if not self.degrees_of_freedom > 0:
-            raise InputError(f"a compliance has {self.degrees_of_freedom:g} degrees of freedom; it needs more than 0")
-
-    def interval(self, coverage: float = 0.95) -> tuple[float, float]:
-        """Coverage interval [mm/N], by Student's t (JCGM 100, annex G)."""
-        half = float(coverage_factor(np.array(self.degrees_of_freedom), coverage)) * self.standard_uncertainty
-        return self.value - half, self.value + half
-
-
-@dataclass(frozen=True, slots=True)
 class OnAxisPart:
     """One spring of the series.
 
@@ -131,21 +104,21 @@ class OnAxisPart:
     ----------
     names : tuple of str
         What it is; more than one name if they cannot be told apart.
-    compliance : OnAxisCompliance
+    compliance : Estimate
     acts : bool
         Whether it moves the tool quasi-statically; a transmission inside the position loop does not.
     share : float or None
         Of the whole compliance; zero if it does not act, None if the whole is not known.
-    reversal : OnAxisCompliance or None [mm]
+    reversal : Estimate or None [mm]
         Half of what it jumps by when the motion reverses (backlash is twice that); None where it was not asked for. Of
         the servo it holds the lag of a moving axis as well (speed over position gain).
     """
 
     names: tuple[str, ...]
-    compliance: OnAxisCompliance
+    compliance: Estimate
     acts: bool
     share: float | None
-    reversal: OnAxisCompliance | None
+    reversal: Estimate | None
 
     @property
     def name(self) -> str:
@@ -163,7 +136,7 @@ class OnAxis:
         The position loop is closed on the `motor` encoder or on the `scale`.
     parts : tuple of OnAxisPart
         From the command to the tool.
-    whole : OnAxisCompliance or None
+    whole : Estimate or None
         From the command to the tool; None if the deflection was neither logged nor given.
     limits : tuple of str
         What cannot be said, and why, in sentences.
@@ -173,7 +146,7 @@ class OnAxis:
     axis: str
     feedback: str
     parts: tuple[OnAxisPart, ...]
-    whole: OnAxisCompliance | None
+    whole: Estimate | None
     limits: tuple[str, ...]
     verdict: tuple[Check, ...]
 
@@ -187,7 +160,7 @@ class _Lines:
     runs: Mapping[str, NDArray[np.intp]]
 
 
-def where_in_the_drive(record: OnAxisRecord, feedback: str = "motor", whole: OnAxisCompliance | None = None) -> OnAxis:
+def where_in_the_drive(record: OnAxisRecord, feedback: str = "motor", whole: Estimate | None = None) -> OnAxis:
     """Split the compliance of an axis into servo, transmission, and guideway with structure.
 
     Parameters
@@ -195,7 +168,7 @@ def where_in_the_drive(record: OnAxisRecord, feedback: str = "motor", whole: OnA
     record : OnAxisRecord
     feedback : str
         What the control closes its position loop on: `motor` encoder or `scale`.
-    whole : OnAxisCompliance, optional
+    whole : Estimate, optional
         On-axis compliance from another test, when the deflection was not logged; it counts as independent of the record.
 
     Returns
@@ -247,8 +220,8 @@ def _chain(record: OnAxisRecord, feedback: str) -> list[str]:
 
 
 def _split(
-    record: OnAxisRecord, feedback: str, chain: Sequence[str], lines: _Lines, whole: OnAxisCompliance | None
-) -> tuple[list[OnAxisPart], bool, OnAxisCompliance | None]:
+    record: OnAxisRecord, feedback: str, chain: Sequence[str], lines: _Lines, whole: Estimate | None
+) -> tuple[list[OnAxisPart], bool, Estimate | None]:
     """Parts that act, whether their uncertainty counts runs, and the whole."""
     places, springs = _IN_SERIES[feedback], _SPRINGS[feedback]
     spans = {springs[places.index(a) : places.index(b)]: (a, b) for a, b in pairwise(chain)}
@@ -256,31 +229,31 @@ def _split(
     by_run = True
     if record.deflection is not None:
         fit, by_run = _fitted(lines, _channel(record, "deflection"))
-        whole = _estimate(fit, "compliance")
+        whole = fit.estimate("compliance")
     parts = []
     for names, (a, b) in spans.items():
         fit, by_run = _fitted(lines, _channel(record, b) - _channel(record, a))
-        parts.append(_part(names, fit, _share(_estimate(fit, "compliance"), whole)))
+        parts.append(_part(names, fit, _share(fit.estimate("compliance"), whole)))
     if whole is None:
         return parts, by_run, None
     # All spans together, first to last position: what they share between them is then counted once.
     seen = _channel(record, chain[-1]) - _channel(record, chain[0]) if len(chain) > 1 else np.zeros(len(record.force))
     if record.deflection is not None:
         fit, by_run = _fitted(lines, _channel(record, "deflection") - seen)
-        parts.append(_part(unseen, fit, _share(_estimate(fit, "compliance"), whole)))
+        parts.append(_part(unseen, fit, _share(fit.estimate("compliance"), whole)))
         return parts, by_run, whole
     fit, by_run = _fitted(lines, seen)
-    left = _less(whole, _estimate(fit, "compliance"))
+    left = _less(whole, fit.estimate("compliance"))
     parts.append(OnAxisPart(unseen, left, True, _share(left, whole), None))
     return parts, by_run, whole
 
 
-def _less(one: OnAxisCompliance, other: OnAxisCompliance) -> OnAxisCompliance:
+def _less(one: Estimate, other: Estimate) -> Estimate:
     """Difference of two independent compliances (JCGM 100, G.2b)."""
     contributions = np.array([[one.standard_uncertainty, other.standard_uncertainty]])
     degrees = np.array([one.degrees_of_freedom, other.degrees_of_freedom])
     freedom = float(effective_degrees_of_freedom(contributions, degrees)[0])
-    return OnAxisCompliance(one.value - other.value, float(np.linalg.norm(contributions)), freedom)
+    return Estimate(one.value - other.value, float(np.linalg.norm(contributions)), freedom)
 
 
 def _channel(record: OnAxisRecord, name: str) -> Array:
@@ -346,21 +319,16 @@ def _fitted(lines: _Lines, difference: Array) -> tuple[Solution, bool]:
         return solve(merge(*factors)), False
 
 
-def _estimate(fit: Solution, label: str) -> OnAxisCompliance:
-    k = fit.labels.index(label)
-    return OnAxisCompliance(float(fit.values[k]), float(fit.standard_uncertainty[k]), float(fit.degrees_of_freedom[k]))
-
-
 def _part(names: tuple[str, ...], fit: Solution, share: float | None, acts: bool = True) -> OnAxisPart:
-    reversal = _estimate(fit, "reversal") if "reversal" in fit.labels else None
-    return OnAxisPart(names, _estimate(fit, "compliance"), acts, share, reversal)
+    reversal = fit.estimate("reversal") if "reversal" in fit.labels else None
+    return OnAxisPart(names, fit.estimate("compliance"), acts, share, reversal)
 
 
-def _share(compliance: OnAxisCompliance, whole: OnAxisCompliance | None) -> float | None:
+def _share(compliance: Estimate, whole: Estimate | None) -> float | None:
     return compliance.value / whole.value if whole is not None and whole.value > 0 else None
 
 
-def _limits(record: OnAxisRecord, feedback: str, parts: Sequence[OnAxisPart], whole: OnAxisCompliance | None) -> list[str]:
+def _limits(record: OnAxisRecord, feedback: str, parts: Sequence[OnAxisPart], whole: Estimate | None) -> list[str]:
     """What cannot be said of this axis, in sentences."""
     lacking = [
         spoken

@@ -22,10 +22,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from elastogeo.errors import InputError
+from elastogeo.estimate import Estimate
 from elastogeo.identification.check import Check
 from elastogeo.identification.static_tests.loading_branches import DEAD_BAND, Branch, branches_of, loading_cycles
 from elastogeo.identification.static_tests.loading_curves import Curves, fitted_curves
-from elastogeo.identification.static_tests.straight_line import Estimate, checked_loading
+from elastogeo.identification.static_tests.straight_line import checked_loading
 from elastogeo.machine import Array
 
 _GRID = 201

@@ -11,9 +11,8 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from elastogeo.errors import UnsupportedError
-from elastogeo.estimate import factor_blocks, solve
+from elastogeo.estimate import Estimate, factor_blocks, solve
 from elastogeo.identification.static_tests.loading_branches import Branch
-from elastogeo.identification.static_tests.straight_line import Estimate
 from elastogeo.machine import Array
 
 HIGHEST_DEGREE = 5

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from elastogeo.estimate import Estimate
 from elastogeo.identification.check import Check
 from elastogeo.identification.result import Identification
 from elastogeo.identification.static_tests.cartesian import CartesianCompliance, Principal, Symmetry
 from elastogeo.identification.static_tests.drive_train import OnAxis
 from elastogeo.identification.static_tests.hysteresis import StaticHysteresis
-from elastogeo.identification.static_tests.straight_line import Estimate, StaticLine
+from elastogeo.identification.static_tests.straight_line import StaticLine
 from elastogeo.machine import Array
 from elastogeo.observe import SensorTwist
 

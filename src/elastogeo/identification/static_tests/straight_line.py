@@ -1,40 +1,17 @@
-"""Numbers with their worth, and the straight line of displacement against force."""
+"""The straight line of displacement against force."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import stdtrit
 
 from elastogeo.errors import InputError, UnsupportedError
-from elastogeo.estimate import factor_blocks, solve
+from elastogeo.estimate import Estimate, factor_blocks, solve
 from elastogeo.machine import Array
 
 _ONE_LEVEL = 1e-9
 """Share of its size by which a force must change to be more than one level."""
-
-
-@dataclass(frozen=True, slots=True)
-class Estimate:
-    """A number and what it is worth (JCGM 100).
-
-    Attributes
-    ----------
-    value : float
-    standard_uncertainty : float
-    degrees_of_freedom : float
-        Of the standard uncertainty.
-    """
-
-    value: float
-    standard_uncertainty: float
-    degrees_of_freedom: float
-
-    def interval(self, coverage: float = 0.95) -> tuple[float, float]:
-        """Coverage interval, by Student's t."""
-        half = float(stdtrit(self.degrees_of_freedom, 0.5 + coverage / 2)) * self.standard_uncertainty
-        return self.value - half, self.value + half
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,25 +43,7 @@ class StaticLine:
         UnsupportedError
             If the compliance may as well be zero: its inverse is then unbounded.
         """
-        return inverse(self.compliance)
-
-
-def inverse(estimate: Estimate) -> Estimate:
-    """One over a number, with its uncertainty to first order.
-
-    Raises
-    ------
-    UnsupportedError
-        If its 95 % interval holds zero.
-    """
-    low, high = estimate.interval()
-    if low <= 0 <= high:
-        raise UnsupportedError(
-            f"the compliance {estimate.value:.3g} mm/N has the interval {low:.3g} to {high:.3g}, which holds zero: its "
-            f"stiffness is unbounded; load harder or read finer"
-        )
-    relative = estimate.standard_uncertainty / abs(estimate.value)
-    return Estimate(1 / estimate.value, relative / abs(estimate.value), estimate.degrees_of_freedom)
+        return self.compliance.inverse()
 
 
 def static_line(force: Array, displacement: Array) -> StaticLine:
@@ -110,10 +69,7 @@ def static_line(force: Array, displacement: Array) -> StaticLine:
     force, displacement = checked_loading(force, displacement)
     rows = np.column_stack([np.ones_like(force), force, displacement])
     found = solve(factor_blocks(["offset", "compliance"], [np.asfortranarray(rows)]))
-    offset, slope = (
-        Estimate(float(v), float(u), float(d))
-        for v, u, d in zip(found.values, found.standard_uncertainty, found.degrees_of_freedom, strict=True)
-    )
+    offset, slope = found.estimates()
     left = displacement - offset.value - slope.value * force
     return StaticLine(slope, offset, found.residual_std, float(np.abs(left).max()))
 

@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 from scipy.special import fdtrc
 
+from elastogeo.estimate import Estimate
 from elastogeo.identification.check import Check
 from elastogeo.identification.static_tests.hysteresis import StaticHysteresis
 from elastogeo.identification.static_tests.result import Cartesian, LoadedPlace, LoadedRun, TwistRun
-from elastogeo.identification.static_tests.straight_line import Estimate
 from elastogeo.observe import KnownInfluence
 
 UM = 1000.0

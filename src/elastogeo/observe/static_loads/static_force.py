@@ -1,8 +1,8 @@
 """A force between tool and workpiece and a displacement sensor beside it: force ramps, loading cycles, weights.
 
 ISO 230-1:2012 as thesis 6.2 reports it (the standard's own text was not seen): the static load is applied between tool and
-workpiece, and the displacement is measured in the direction of the force. `elastogeo.identification.static_tests` looks at its loading and
-unloading branches; here the run becomes observations, from which joint compliances are identified.
+workpiece, and the displacement is measured in the direction of the force. `elastogeo.identification.static_tests` looks at
+its loading and unloading branches; here the run becomes observations, from which joint compliances are identified.
 """
 
 from __future__ import annotations

@@ -48,14 +48,13 @@ from typing import Any
 
 import numpy as np
 
+from elastogeo.estimate import Estimate
 from elastogeo.identification.static_tests import (
     Cartesian,
-    Estimate,
     LoadedPlace,
     LoadedRun,
     LoadStep,
     OnAxis,
-    OnAxisCompliance,
     StaticLine,
     StaticResults,
     TwistRun,
@@ -94,7 +93,7 @@ def static_json(found: StaticResults) -> dict[str, Any]:
     )
 
 
-def _number(found: Estimate | OnAxisCompliance | None, scale: float) -> dict[str, Any] | None:
+def _number(found: Estimate | None, scale: float) -> dict[str, Any] | None:
     if found is None:
         return None
     return {
