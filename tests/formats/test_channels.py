@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from elastogeo.errors import FormatError, InputError
-from elastogeo.formats import channels_clock
+from elastogeo.formats import channel_clock
 from elastogeo.formats.channels import ChannelUse, Clock, OnOneClock, on_one_clock
 from elastogeo.formats.log import Channel, Log
 
@@ -256,7 +256,7 @@ def test_a_clock_without_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> None
     log = log_of(channel("x_mm", "mm", [0, 1], [0, 1e9]))
     with pytest.raises(FormatError, match=r"every 1e-06 s makes 1e\+15 samples, at most 20000000 are made"):
         on_one_clock(log, clock=Clock(sample_time=1e-6, longest_gap=1e10))
-    monkeypatch.setattr(channels_clock, "MAX_SAMPLES", 100)
+    monkeypatch.setattr(channel_clock, "MAX_SAMPLES", 100)
     with pytest.raises(FormatError, match=r"every 0\.01 s makes 501 samples, at most 100 are made"):
         on_one_clock(log_of(channel("x_mm", "mm", [0, 1, 2], [0, 0.01, 5])), clock=Clock(0.01, 10.0))
 

@@ -13,10 +13,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from elastogeo.errors import FormatError
-from elastogeo.formats import by_content, log_files
+from elastogeo.formats import log_files
 from elastogeo.formats.log import Channel, Log, in_time_order
 from elastogeo.formats.log_files import LogFormat, log_formats, read_log, read_log_bytes, register
 from elastogeo.formats.run_files import run_formats
+from elastogeo.formats.text import by_content
 from elastogeo.formats.text.by_content import HEAD
 from elastogeo.formats.text.units import UNITS
 
@@ -152,9 +153,9 @@ def test_large_and_empty_and_missing_files_are_refused(tmp_path: Path, monkeypat
 
 def test_the_toy_of_the_recipe_works(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(log_files, "_FORMATS", log_formats())
-    found = re.search(r"`log_toy\.py`::\n\n(.*?)\n\nWhat the contract asks", inspect.getdoc(log_files) or "", re.DOTALL)
+    found = re.search(r"`logs/toy\.py`::\n\n(.*?)\n\nWhat the contract asks", inspect.getdoc(log_files) or "", re.DOTALL)
     assert found
-    exec(compile(textwrap.dedent(found[1]), "log_toy.py", "exec"), {})
+    exec(compile(textwrap.dedent(found[1]), "logs/toy.py", "exec"), {})
     toy = log_files.log_formats()["toy"]
     current = read_log_bytes(toy.sample(), "f").channels["current"]
     assert (current.values.tolist(), current.unit) == ([0.5, 0.25], "A")

@@ -11,8 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from elastogeo.errors import FormatError
-from elastogeo.formats import by_content, run_files
+from elastogeo.formats import run_files
 from elastogeo.formats.run_files import RunFormat, read_run, read_run_bytes, register, run_formats
+from elastogeo.formats.text import by_content
 from elastogeo.formats.text.by_content import HEAD
 from elastogeo.formats.text.table import Table
 
@@ -137,9 +138,9 @@ def test_large_and_empty_and_missing_files_are_refused(tmp_path: Path, monkeypat
 
 def test_the_toy_of_the_recipe_works(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(run_files, "_FORMATS", run_formats())
-    found = re.search(r"`run_toy\.py`::\n\n(.*?)\n\nWhat the contract asks", inspect.getdoc(run_files) or "", re.DOTALL)
+    found = re.search(r"`runs/toy\.py`::\n\n(.*?)\n\nWhat the contract asks", inspect.getdoc(run_files) or "", re.DOTALL)
     assert found
-    exec(compile(textwrap.dedent(found[1]), "run_toy.py", "exec"), {})
+    exec(compile(textwrap.dedent(found[1]), "runs/toy.py", "exec"), {})
     toy = run_files.run_formats()["toy"]
     assert read_run_bytes(toy.sample(), "f").column("force").tolist() == [36.0, 742.0]
     assert [f.name for f in run_files.run_formats().values() if f.can_read(toy.sample())] == ["toy"]

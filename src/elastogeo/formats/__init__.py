@@ -9,6 +9,7 @@ from elastogeo.formats.documents.machine_tests import example_test, read_test
 from elastogeo.formats.documents.machines import find_machine, read_machine, shipped_machines
 from elastogeo.formats.documents.simulations import Simulation, full_turn, poses_of, read_simulation, write_runs
 from elastogeo.formats.documents.templates import write_new_test
+from elastogeo.formats.inspection import Inspected, InspectedColumn, inspect_file
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, log_formats, read_log
 from elastogeo.formats.logs.parquet import read_recording
@@ -36,6 +37,8 @@ __all__ = [
     "ChannelUse",
     "Clock",
     "Gap",
+    "Inspected",
+    "InspectedColumn",
     "Log",
     "LogFormat",
     "OnOneClock",
@@ -49,6 +52,7 @@ __all__ = [
     "example_test",
     "find_machine",
     "full_turn",
+    "inspect_file",
     "log_formats",
     "on_one_clock",
     "part_files",
