@@ -16,7 +16,7 @@ import numpy as np
 from elastogeo.machine import COMPONENTS, SPINDLE, Array, Joint, Machine
 from elastogeo.sources.families import family, named
 from elastogeo.sources.situation import Situation
-from elastogeo.sources.source import Source, twist_unit
+from elastogeo.sources.source import Effect, Source, twist_unit
 
 LISTED_DEGREES = (1, 2, 3)
 LISTED_ORDERS = (1, 2)
@@ -56,7 +56,7 @@ def error_motions(machine: Machine) -> Iterator[Source]:
         if joint.name == SPINDLE:
             continue
         for d in range(6):
-            yield from (_polynomial(joint, d, n) for n in LISTED_DEGREES)
+            yield from (_polynomial(machine, joint, d, n) for n in LISTED_DEGREES)
             if joint.is_rotary:
                 yield from (_harmonic(joint, d, n, part) for n in LISTED_ORDERS for part in "cs")
 
@@ -69,11 +69,11 @@ def error_motion(machine: Machine, name: str) -> Source | None:
         return None
     joint, d, n = machine.joints[machine.index(match[2])], COMPONENTS.index(match[1]), int(match[4])
     if not match[3]:
-        return _polynomial(joint, d, n)
+        return _polynomial(machine, joint, d, n)
     return _harmonic(joint, d, n, match[3]) if joint.is_rotary else None
 
 
-def _polynomial(joint: Joint, d: int, degree: int) -> Source:
+def _polynomial(machine: Machine, joint: Joint, d: int, degree: int) -> Source:
     of = "rad" if joint.is_rotary else "mm"
     return Source(
         name=f"E_{COMPONENTS[d]}{joint.name}{degree}",
@@ -82,7 +82,18 @@ def _polynomial(joint: Joint, d: int, degree: int) -> Source:
         component=d,
         driver=CommandPower(joint.name, degree),
         meaning=f"{kind_of_motion(joint, d)} of {joint.name}, degree {degree}",
+        effect=_effect(machine, joint, d, degree),
     )
+
+
+def _effect(machine: Machine, joint: Joint, d: int, degree: int) -> Effect | None:
+    """An error motion is that of the carriage: where it carries the workpiece, the tool is off the other way."""
+    sign = 1.0 if machine.in_tool_branch(joint.name) else -1.0
+    if degree == 1 and d == joint.direction + 3 * joint.is_rotary:
+        return Effect("gain", joint.name, sign=sign)
+    if degree == 2 and d < 3 and not joint.is_rotary and d != joint.direction:
+        return Effect("bow", joint.name, COMPONENTS[d], sign)
+    return None
 
 
 def _harmonic(joint: Joint, d: int, order: int, part: str) -> Source:

@@ -1,7 +1,9 @@
 """What happens where an axis turns back: backlash, lateral play, and the spike of friction.
 
-`B_XX` is the backlash of X (its reversal value: what is lost when it turns back), `B_YX` its lateral play in y. The carriage
-lags by half of it. `S_XX` is the height of a spike that dies away within `SPIKE_LENGTH` of travel after the turn.
+`B_XX` is the backlash of X (its reversal value: what is lost when it turns back), `B_YX` its lateral play in y. The axis
+falls short of its command by half of it. `S_XX` is the height of a spike that dies away within `SPIKE_LENGTH` of travel
+after the turn. All count along the axis's own command, the motion of the tool relative to the workpiece: a positive value
+means the same whichever of the two the axis carries.
 """
 
 from __future__ import annotations
@@ -14,7 +16,7 @@ import numpy as np
 from elastogeo.machine import COMPONENTS, Array, Joint, Machine
 from elastogeo.sources.families import family
 from elastogeo.sources.situation import Situation
-from elastogeo.sources.source import Source, twist_unit
+from elastogeo.sources.source import Effect, Source, twist_unit
 
 SPIKE_LENGTH = 0.1
 """Travel [mm or degrees] after a reversal in which its spike falls to 37 %."""
@@ -25,18 +27,18 @@ FADED = 10.0
 
 @dataclass(frozen=True, slots=True)
 class Lag:
-    """Driver: minus half the sense of the axis's motion."""
+    """Driver: minus half the sense of the axis's command, as a twist of its carriage."""
 
     axis: str
 
     def __call__(self, situation: Situation) -> Array:
         """-1/2, 0 or 1/2 at every reading, shape (m,)."""
-        return -0.5 * situation.sense(self.axis)
+        return -0.5 * situation.side(self.axis) * situation.sense(self.axis)
 
 
 @dataclass(frozen=True, slots=True)
 class AfterReversal:
-    """Driver: minus the sense of the motion, dying away with the travel since the axis turned back.
+    """Driver: minus the sense of the command, dying away with the travel since the axis turned back.
 
     So near a turn the acceleration is as good as constant, and the travel is `v^2 / (2 a)`: what a reading says by itself,
     wherever in the run, or in its arc, it stands.
@@ -52,7 +54,7 @@ class AfterReversal:
         after = (sense * acceleration > 0) & (to_speed < FADED * self.length * np.abs(acceleration))
         spike = np.zeros(len(sense))
         spike[after] = -sense[after] * np.exp(-to_speed[after] / np.abs(acceleration[after]) / self.length)
-        return spike
+        return situation.side(self.axis) * spike
 
 
 @family
@@ -70,6 +72,7 @@ def reversal_errors(machine: Machine) -> Iterator[Source]:
             component=along,
             driver=AfterReversal(joint.name, np.deg2rad(SPIKE_LENGTH) if joint.is_rotary else SPIKE_LENGTH),
             meaning=f"reversal spike of {joint.name}",
+            effect=Effect("spike", joint.name),
         )
 
 
@@ -82,4 +85,5 @@ def _play(joint: Joint, d: int, along: int) -> Source:
         component=d,
         driver=Lag(joint.name),
         meaning=f"{kind} of {joint.name}",
+        effect=Effect("backlash", joint.name) if d == along else Effect("play", joint.name, COMPONENTS[d]),
     )

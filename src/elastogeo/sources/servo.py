@@ -1,4 +1,6 @@
-"""Servo errors: `T_X1` [s] is by how much time X lags its command, `T_X2` [s^2] what it is off per acceleration.
+"""Servo errors: `T_X1` [s] is by how much time X lags its command, `T_X2` [s^2] by what it falls short per acceleration.
+
+Both count along the axis's own command, on either branch.
 
 On a circle a lag that all axes share moves the tool along the path and changes no radius: what a ball bar sees is the
 mismatch, the difference of the lags.
@@ -12,19 +14,20 @@ from dataclasses import dataclass
 from elastogeo.machine import Array, Machine
 from elastogeo.sources.families import family
 from elastogeo.sources.situation import Situation
-from elastogeo.sources.source import Source
+from elastogeo.sources.source import Effect, Source
 
 
 @dataclass(frozen=True, slots=True)
 class Rate:
-    """Driver: minus the velocity (order 1) or the acceleration (order 2) of the axis."""
+    """Driver: minus the commanded velocity (order 1) or acceleration (order 2), as a twist of the axis's carriage."""
 
     axis: str
     order: int
 
     def __call__(self, situation: Situation) -> Array:
         """Values [mm/s, rad/s or mm/s^2] at every reading, shape (m,)."""
-        return -situation.velocity(self.axis) if self.order == 1 else -situation.acceleration(self.axis)
+        rate = situation.velocity(self.axis) if self.order == 1 else situation.acceleration(self.axis)
+        return -situation.side(self.axis) * rate
 
 
 @family
@@ -33,7 +36,10 @@ def servo_errors(machine: Machine) -> Iterator[Source]:
     for joint in machine.joints:
         if joint.name == "S":
             continue
-        for order, unit, kind in ((1, "s", "lag"), (2, "s^2", "error per acceleration")):
+        for order, unit, kind, effect in (
+            (1, "s", "lag", "lag"),
+            (2, "s^2", "error per acceleration", "acceleration"),
+        ):
             if order == 1 or not joint.is_rotary:
                 yield Source(
                     name=f"T_{joint.name}{order}",
@@ -42,4 +48,5 @@ def servo_errors(machine: Machine) -> Iterator[Source]:
                     component=joint.direction + 3 * joint.is_rotary,
                     driver=Rate(joint.name, order),
                     meaning=f"servo {kind} of {joint.name}",
+                    effect=Effect(effect, joint.name),
                 )

@@ -66,6 +66,10 @@ class Situation:
         velocity = self.velocity(axis)
         return np.where(np.abs(velocity) > STANDING * np.abs(velocity).max(), np.sign(velocity), 0.0)
 
+    def side(self, axis: str) -> float:
+        """+1 for an axis that carries the tool, -1 for one that carries the workpiece and moves by minus its command."""
+        return self.frames.joints[axis].side
+
     def acceleration(self, axis: str) -> Array:
         """Commanded acceleration of an axis, shape (m,) [mm/s^2].
 

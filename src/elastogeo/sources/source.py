@@ -24,6 +24,30 @@ class Driver(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
+class Effect:
+    """What a signed value means for its axis, as facts for a sentence: "X falls 8 um short when it reverses".
+
+    Attributes
+    ----------
+    kind : str
+        `gain` (positive: travels too far), `bow` (its path bends towards + of `other` at both ends), `squareness` (the angle
+        between the positive directions of `axis` and `other` is too small), `backlash`, `spike`, `lag` and `acceleration`
+        (falls short of its command), `play` (sits towards - of `other` while it moves forth, towards + while it moves back).
+    axis : str
+        Its letter; all signs count along its own command, the motion of the tool relative to the workpiece.
+    other : str
+        The component letter of a play or a bow, the second axis of a squareness; empty for what acts along the axis.
+    sign : float
+        +1, or -1 where the parameter is positive for the opposite.
+    """
+
+    kind: str
+    axis: str
+    other: str = ""
+    sign: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
 class Source:
     """One error source.
 
@@ -44,6 +68,8 @@ class Source:
         Which load component of its joint drives it, 0 to 5 for forces and moments about X Y Z; None if no load does.
     force_degree : float
         The power of the force with which its column grows: 1 for a compliance, 0 for geometry.
+    effect : Effect or None
+        What the sign of its parameter means for the axis, if that has a sentence.
     """
 
     name: str
@@ -54,6 +80,7 @@ class Source:
     meaning: str
     load: int | None = None
     force_degree: float = 0.0
+    effect: Effect | None = None
 
     @property
     def elastic(self) -> bool:
