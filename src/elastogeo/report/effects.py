@@ -7,13 +7,19 @@ from elastogeo.sources import Effect
 
 _SENTENCES = {
     "gain": ("{axis} travels {size} too far", "{axis} travels {size} too short"),
-    "bow": ("the path of {axis} bends towards +{other} at both ends", "the path of {axis} bends towards -{other} at both ends"),
+    "bow": (
+        "the path of {axis} bends towards +{other} at both ends",
+        "the path of {axis} bends towards -{other} at both ends",
+    ),
     "squareness": (
         "the angle between +{axis} and +{other} is {size} less than 90°",
         "the angle between +{axis} and +{other} is {size} more than 90°",
     ),
     "backlash": ("{axis} falls {size} short when it reverses", "{axis} overshoots by {size} when it reverses"),
-    "spike": ("{axis} is late by up to {size} right after it reverses", "{axis} jumps ahead by {size} right after it reverses"),
+    "spike": (
+        "{axis} is late by up to {size} right after it reverses",
+        "{axis} jumps ahead by {size} right after it reverses",
+    ),
     "lag": ("{axis} lags its command by {size}", "{axis} leads its command by {size}"),
     "acceleration": (
         "{axis} falls {size} short while it accelerates",
