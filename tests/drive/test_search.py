@@ -156,7 +156,8 @@ def test_structure_is_found_where_it_is_and_not_where_it_is_not() -> None:
     slow = [replace(run, effort=run.effort + np.sin(0.5 * run.time)) for run in runs]
     assert structure(identify_balance(slow), slow).autocorrelation > 0.5
     trembling = [replace(run, velocity=0.3 * np.random.default_rng(k).standard_normal(500)) for k, run in enumerate(runs)]
-    assert structure(identify_balance(trembling), trembling).flips > 0.1
+    everything = TorqueModel(least_speed=0.0)
+    assert structure(identify_balance(trembling, everything), trembling).flips > 0.1
 
 
 def test_a_low_pass_alone_is_no_structure() -> None:

@@ -47,6 +47,7 @@ from elastogeo.drive.servo import (
     servo_stiffness,
     static_stiffness,
 )
+from elastogeo.drive.standstill import Standstill, standing, standstill, window_of
 from elastogeo.drive.terms import Motion
 from elastogeo.drive.validation import LeftOut, RunScore, Structure, leave_one_run_out, predict, structure
 from elastogeo.drive.virtual_work import joint_forces, tool_force
@@ -75,6 +76,7 @@ __all__ = [
     "ServoLoop",
     "ServoStiffness",
     "SetupCompliance",
+    "Standstill",
     "Structure",
     "TorqueBalance",
     "TorqueModel",
@@ -114,11 +116,14 @@ __all__ = [
     "setup_compliance",
     "shared_masks",
     "smoothed",
+    "standing",
+    "standstill",
     "static_stiffness",
     "stiffness_from_compliance",
     "structure",
     "tool_force",
     "units_of",
     "usable",
+    "window_of",
     "with_rig",
 ]

@@ -15,7 +15,7 @@ import numpy as np
 
 from elastogeo.drive.model import Mask, TorqueModel, motion_columns, usable
 from elastogeo.drive.records import DriveRecord
-from elastogeo.drive.separation import advice, named, standstill
+from elastogeo.drive.separation import advice, at_rest, named
 from elastogeo.errors import DegreesOfFreedomError, InputError, RankError
 from elastogeo.estimate import Confounding, Factor, Solution, confounding, factor_blocks, merge, solve, solve_by_run
 from elastogeo.machine import Array
@@ -381,7 +381,7 @@ def check_alive(records: Sequence[DriveRecord], masks: Sequence[Mask], model: To
     axis, count = records[0].axis, sum(len(record.time) for record in records)
     reasons = list(_dead(records, count))
     if not reasons and not any(mask.any() for mask in masks):
-        reasons = [standstill(count, model.least_speed, records[0].length_unit)]
+        reasons = [at_rest(count, model.least_speed, records[0].length_unit)]
     if reasons:
         raise RankError(f"axis {axis} cannot be identified, because {named(reasons)}")
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from elastogeo.drive.differentiator import smoothed
 from elastogeo.drive.records import DriveRecord
+from elastogeo.drive.standstill import standstill
 from elastogeo.drive.terms import Motion, Term, term_named
 from elastogeo.errors import InputError
 from elastogeo.machine import Array
@@ -26,9 +27,10 @@ class TorqueModel:
     Attributes
     ----------
     terms : tuple of str
-    least_speed : float [mm/s; rad/s of a rotary axis]
+    least_speed : float or None [mm/s; rad/s of a rotary axis]
         Slower samples are left out: near standstill friction takes any value up to that of breaking loose, and no sign
-        says which. With a sharp sign, samples at exactly zero are always left out.
+        says which. None leaves out what each record itself shows to be at rest (`standstill`), and with a sharp sign what
+        is no faster than its noise there. With a sharp sign, samples at exactly zero are always left out.
     smooth_speed : float or None [mm/s]
         Of the law `tanh(v / smooth_speed)` in place of the sign.
     stribeck_speed : float or None [mm/s]
@@ -41,7 +43,7 @@ class TorqueModel:
     """
 
     terms: tuple[str, ...] = PLAIN
-    least_speed: float = 0.0
+    least_speed: float | None = None
     smooth_speed: float | None = None
     stribeck_speed: float | None = None
     delay: float = 0.0
@@ -52,7 +54,7 @@ class TorqueModel:
         if not self.terms or len(set(self.terms)) < len(self.terms):
             raise InputError(f"the terms {', '.join(self.terms) or 'of none'} will not do; name one or more, each once")
         found = self.chosen
-        if not (np.isfinite(self.least_speed) and self.least_speed >= 0):
+        if self.least_speed is not None and not (np.isfinite(self.least_speed) and self.least_speed >= 0):
             raise InputError(f"least_speed is {self.least_speed:g}; write 0 or a positive speed")
         for name, speed in (("smooth_speed", self.smooth_speed), ("stribeck_speed", self.stribeck_speed)):
             if speed is not None and not (np.isfinite(speed) and speed > 0):
@@ -99,7 +101,11 @@ def _passed(record: DriveRecord, term: Term, columns: Array) -> Array:
 
 
 def usable(record: DriveRecord, model: TorqueModel) -> Mask:
-    """Which samples the model may be held against, shape (m,): fast enough, and with a motion at their delay."""
+    """Which samples the model may be held against, shape (m,): moving, and with a motion at their delay."""
     speed = np.abs(record.velocity)
-    fast = speed > model.least_speed if model.sharp or model.least_speed else np.ones(len(speed), dtype=bool)
-    return np.asarray(fast & record.has_moved(model.delay))
+    if model.least_speed is None:
+        rest = standstill(record)
+        moving = ~rest.near & (speed > rest.speed if model.sharp else True)
+    else:
+        moving = speed > model.least_speed if model.sharp or model.least_speed else np.ones(len(speed), dtype=bool)
+    return np.asarray(moving & record.has_moved(model.delay))

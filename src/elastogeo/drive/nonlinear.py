@@ -172,10 +172,11 @@ def ranges_of(records: Sequence[DriveRecord], model: TorqueModel, searched: Sequ
     unknown = [name for name in searched if name not in SEARCHABLE]
     if unknown or len(set(searched)) < len(searched):
         raise InputError(f"cannot search {', '.join(searched)}; name some of {', '.join(SEARCHABLE)}, each once")
-    speeds = np.abs(np.concatenate([record.velocity for record in records]))
-    speeds = speeds[speeds > model.least_speed]
+    speeds = np.abs(np.concatenate([record.velocity[usable(record, model)] for record in records]))
+    speeds = speeds[speeds > 0]
     if not len(speeds):
-        raise RankError(f"no sample of axis {records[0].axis} is faster than {model.least_speed:g}: nothing can be searched")
+        slower = "its noise at rest" if model.least_speed is None else f"{model.least_speed:g} {records[0].length_unit}/s"
+        raise RankError(f"no sample of axis {records[0].axis} is faster than {slower}: nothing can be searched")
     slow, fast = np.log(np.quantile(speeds, SLOWEST) / 4), np.log(np.quantile(speeds, FASTEST))
     late = max(LONGEST_DELAY, max(record.step for record in records))
     ends = {"delay": (-late, late), "neighbours": (0.0, 0.5)}

@@ -36,6 +36,9 @@ class DriveRecord:
     cutoff : float or None [Hz]
         Of the low-pass that effort and motion went through (`differentiate`, `smoothed`): the friction of a reversal then
         goes through it as well. None if they stand as recorded.
+    standing : array of bool, shape (m,), or None
+        Where the axis stands, as the position shows before the low-pass; None where nothing was smoothed, and the velocity
+        tells.
     """
 
     run: str
@@ -48,6 +51,7 @@ class DriveRecord:
     disturbance: Mapping[str, Array] = field(default_factory=dict)
     effort_unit: str = "A"
     cutoff: float | None = None
+    standing: NDArray[np.bool_] | None = None
 
     def __post_init__(self) -> None:
         """Refuse a record that is none."""
@@ -71,6 +75,8 @@ class DriveRecord:
             if not np.isfinite(values).all():
                 row = int(np.argmin(np.isfinite(values))) + 1
                 raise InputError(f"{where}: sample {row} of {name} is no finite number; repair the log or cut it there")
+        if self.standing is not None and self.standing.shape != self.time.shape:
+            raise InputError(f"{where}: standing has {len(self.standing)} values at {len(self.time)} times; each needs one")
         if (np.diff(self.time) <= 0).any():
             raise InputError(f"{where}: the clock does not go forward at every sample; sort the log and remove doubles")
 

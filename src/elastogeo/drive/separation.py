@@ -35,14 +35,17 @@ def combination(terms: dict[str, float]) -> str:
     text = ""
     for name, coefficient in terms.items():
         size = abs(coefficient)
-        factor = "" if abs(size - 1) < 1e-6 else f"{size:.3g} "
+        written = f"{size:.3g}"
+        factor = "" if written == "1" else f"{written} "
         sign = "-" if coefficient < 0 else "+"
         text += f" {sign} {factor}{name}" if text else f"{'-' if coefficient < 0 else ''}{factor}{name}"
     return text
 
 
-def standstill(count: int, least_speed: float, unit: str) -> str:
+def at_rest(count: int, least_speed: float | None, unit: str) -> str:
     """Why no sample can be used."""
+    if least_speed is None:
+        return f"none of its {count} samples shows a motion: the axis stands still in all of them; record a motion"
     return (
         f"none of its {count} samples moves at more than {least_speed:g} {unit}/s, below which the direction of its "
         f"friction is not known; record a motion, or lower least_speed"

@@ -36,13 +36,15 @@ from elastogeo.drive import (
     effort_from_current,
     gain,
     smoothed,
+    standing,
     units_of,
+    window_of,
 )
 from elastogeo.errors import FormatError, InputError
 from elastogeo.formats.channels import ChannelUse, Clock, OnOneClock, on_one_clock
 from elastogeo.formats.log_files import read_log
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
-from elastogeo.machine import Array, Feed, OptionalFeed, OptionalFrequency, Time
+from elastogeo.machine import Array, OptionalFeed, OptionalFrequency, Time
 
 Centre = Annotated[tuple[float, float], "mm"]
 
@@ -67,7 +69,7 @@ class ModelDocument:
     """
 
     terms: tuple[str, ...] = PLAIN
-    least_speed: Feed = 0.0
+    least_speed: OptionalFeed = None
     smooth_speed: OptionalFeed = None
     stribeck_speed: OptionalFeed = None
     delay: Time = 0.0
@@ -322,6 +324,8 @@ def _record(
         position, velocity, acceleration = where, made.position, made.velocity
     else:
         position, velocity, acceleration = made.position, made.velocity, made.acceleration
+    path = _integrated(time, known) if from_velocity else known
+    at_rest = standing(time, path, made.position if from_velocity else made.velocity, window_of(found.step, chosen))
     derivative = 1 if from_velocity else 2
     left = gain(chosen, found.step, chosen, derivative) / gain(chosen, found.step, chosen, 0)
     note = (
@@ -340,6 +344,7 @@ def _record(
         smooth[keep],
         effort_unit=unit,
         cutoff=chosen,
+        standing=at_rest[keep],
     )
     return record, [note]
 

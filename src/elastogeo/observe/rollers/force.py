@@ -77,7 +77,7 @@ def contact_force(
         If the samples that count leave so wide a gap in the turn that its harmonics are not determined.
     """
     axes = [drive.axis for drive in drives]
-    smooth = {axis: _smoother(track, axis, balances[axis].model.least_speed, harmonics) for axis in axes}
+    smooth = {axis: _smoother(track, axis, balances[axis].model.least_speed or 0.0, harmonics) for axis in axes}
 
     def along(axis: str, held: Array) -> Array:
         """The force along the line of centres, of the force [N] that one drive holds."""
@@ -91,7 +91,7 @@ def contact_force(
         axis, balance, record = drive.axis, balances[drive.axis], track.records[drive.axis]
         samples = force_from_effort(drive, balance.disturbance(record))
         held = smooth[axis](samples)
-        scatter += float(np.mean(np.square(samples - held)[_counts(track, axis, balance.model.least_speed)]))
+        scatter += float(np.mean(np.square(samples - held)[_counts(track, axis, balance.model.least_speed or 0.0)]))
         part = along(axis, held)
         force += part
         if drive.relative_uncertainty:

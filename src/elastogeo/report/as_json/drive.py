@@ -5,7 +5,7 @@ axes : one entry per axis:
     axis, effort_unit
     refusal : why it cannot be identified; empty if it can
     model : {terms, least_speed_mm_s, smooth_speed_mm_s, stribeck_speed_mm_s, delay_s, neighbours}; speeds in rad/s of a
-        rotary axis
+        rotary axis; a least speed of null is that of the noise which each record shows at rest
     samples : {run: number used}; left_out : how many were too slow or without a motion
     counted : what the uncertainties take as independent: `runs`, `pieces`, `samples`
     parameters : [{name, value, unit, meaning, standard_uncertainty, interval95, stands_for, at_motor}]
