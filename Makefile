@@ -2,7 +2,7 @@
 PYTHON ?= python3
 
 .DEFAULT_GOAL := help
-.PHONY: demo test bench check docs clean help
+.PHONY: demo test bench studies nightly check docs clean help
 
 demo: ## identify the example test, print the result, write the report
 	@$(PYTHON) make.py demo
@@ -12,6 +12,12 @@ test: ## set up everything that the tests need and run all of them
 
 bench: ## time the solver on many readings (minutes)
 	@$(PYTHON) make.py bench
+
+studies: ## count how often each check of a verdict is right, and write docs/verdicts.md (half an hour)
+	@$(PYTHON) make.py studies
+
+nightly: ## the tests that take too long for every day, then the studies
+	@$(PYTHON) make.py nightly
 
 check: ## lint, format, types and import layers
 	@$(PYTHON) make.py check

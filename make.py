@@ -43,6 +43,16 @@ TASKS = {
         DEVELOPER,
         [("bench", ["benchmarks/run.py"]), ("monte carlo", ["benchmarks/monte_carlo.py"])],
     ),
+    "studies": (
+        "count how often each check of a verdict is right, and write docs/verdicts.md (half an hour)",
+        DEVELOPER,
+        [("studies", ["-m", "studies.run"])],
+    ),
+    "nightly": (
+        "the tests that take too long for every day, then the studies",
+        DEVELOPER,
+        [("long tests", [*PYTEST, "-m", "nightly"]), ("studies", ["-m", "studies.run"])],
+    ),
     "check": ("lint, format, types (mypy --strict) and import layers", DEVELOPER, CHECKS),
     "docs": (
         "build the documentation into docs/_build/html",
@@ -195,7 +205,9 @@ def installed_extras(fingerprint):
 def run(command):
     """Run a command of the environment, its output straight to the screen."""
     environment = dict(os.environ)
-    if command is PYTEST:  # one process a core already: more threads in each would only get in each other's way
+    if (
+        command[: len(PYTEST)] == PYTEST
+    ):  # one process a core already: more threads in each would only get in each other's way
         for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
             environment.setdefault(name, "1")
     code = subprocess.run(in_environment(command), cwd=ROOT, env=environment, check=False).returncode
@@ -231,14 +243,14 @@ def show_help():
     described = {**{name: task[0] for name, task in TASKS.items()}, **OTHER_TASKS}
     print("make TASK, or without make: python -m make TASK\n")
     for name, meaning in described.items():
-        print(f"  {name:<7}{meaning}")
+        print(f"  {name:<9}{meaning}")
     return 0
 
 
 def clean():
     """Remove caches and built files, nothing that a person made."""
     folders = [ROOT / name for name in CLEANED]
-    for top in ("src", "tests", "benchmarks", "docs", "examples", "__pycache__"):
+    for top in ("src", "tests", "studies", "benchmarks", "docs", "examples", "__pycache__"):
         folders += sorted((ROOT / top).rglob("__pycache__")) if top != "__pycache__" else [ROOT / top]
     for folder in folders:
         if folder.is_dir():

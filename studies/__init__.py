@@ -8,3 +8,7 @@ From `elastogeo` it takes the classes that a test is made of, in `bar_tests` alo
 
     test = make_test("15 runs", Truth(TABLE_5_5, softening=-0.2), "of the run", seed=3)
 """
+
+import os
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy: workers on shared cores wait for each other's threads

@@ -15,7 +15,7 @@ import elastogeo
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
 HEAVY = {"clarabel", "jinja2", "matplotlib", "numba", "numpy", "pyarrow", "pydantic", "scipy", "typst"}
-TARGETS = {"demo", "test", "bench", "check", "docs", "clean", "help"}
+TARGETS = {"demo", "test", "bench", "studies", "nightly", "check", "docs", "clean", "help"}
 
 
 def subpackages() -> list[str]:
@@ -91,7 +91,7 @@ def test_every_room_says_what_it_is_for(package: str) -> None:
 
 
 def test_no_file_has_a_name_that_says_nothing() -> None:
-    folders = [ROOT / top for top in ("src", "tests", "benchmarks", "docs", "examples")]
+    folders = [ROOT / top for top in ("src", "tests", "studies", "benchmarks", "docs", "examples")]
     paths = [path.relative_to(ROOT) for folder in folders for path in folder.rglob("*.py")]
     assert paths
     assert [path for path in paths if path.name in {"utils.py", "helpers.py", "common.py"}] == []

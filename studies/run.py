@@ -1,0 +1,75 @@
+"""Run the studies and write `docs/verdicts.md`: `make studies`, or `python -m studies.run --help`.
+
+Counts are kept in `studies/counts`, a file a study, so that one check can be studied again without the others.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+from pathlib import Path
+
+from studies.checks import studies
+from studies.page import page
+from studies.rates import Cell, Rate, Study, rates
+
+ROOT = Path(__file__).resolve().parents[1]
+KEPT = ROOT / "studies" / "counts"
+PAGE = ROOT / "docs" / "verdicts.md"
+Counts = dict[str, dict[str, int]]
+"""Of one study: by cell and word."""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the chosen studies, keep their counts, write the page and say which rates are not what they should be."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("studies", nargs="*", metavar="STUDY", help="files of studies/checks, by name; all if none is named")
+    parser.add_argument("--trials", type=int, default=400, help="draws where nothing is wrong (400)")
+    parser.add_argument("--faults", type=int, default=100, help="draws with a fault (100)")
+    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes (one a core)")
+    parser.add_argument("--page", action="store_true", help="run nothing, write the page from what is kept")
+    given = parser.parse_args(arguments)
+    known = studies()
+    if unknown := set(given.studies) - known.keys():
+        parser.error(f"there is no study {', '.join(sorted(unknown))}; there are {', '.join(known)}")
+    if not given.page:
+        run({name: known[name] for name in given.studies or known}, given.trials, given.faults, given.workers)
+    found = {name: rates_of(study, read_counts(name)) for name, study in known.items()}
+    PAGE.write_text(page(known, found), encoding="utf-8")
+    missed = [
+        (study.check, cell.key) for name, study in known.items() for cell in found[name] if not found[name][cell].meets(cell)
+    ]
+    for check, key in missed:
+        print(f"{check}: {key} is not as wanted")
+    return 0
+
+
+def run(chosen: dict[str, Study], trials: int, faults: int, workers: int) -> None:
+    """Count the chosen studies and keep their counts."""
+    every = [cell for study in chosen.values() for cell in study.cells]
+    found = rates(every, lambda cell: faults if cell.least else trials, workers)
+    for name, study in chosen.items():
+        write_counts(name, {cell.key: dict(found[cell].words) for cell in study.cells})
+
+
+def rates_of(study: Study, counts: Counts) -> dict[Cell, Rate]:
+    """The rates that are kept of a study."""
+    return {c: Rate(tuple(counts[c.key].items()), c.counted) for c in study.cells if c.key in counts}
+
+
+def read_counts(name: str) -> Counts:
+    """What is kept of a study, empty at first."""
+    path = KEPT / f"{name}.json"
+    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+
+
+def write_counts(name: str, counts: Counts) -> None:
+    """Keep it, a line a cell."""
+    lines = ",\n".join(f" {json.dumps(key)}: {json.dumps(words, sort_keys=True)}" for key, words in counts.items())
+    KEPT.mkdir(exist_ok=True)
+    (KEPT / f"{name}.json").write_text(f"{{\n{lines}\n}}\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
