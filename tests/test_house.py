@@ -108,3 +108,9 @@ def test_the_command_line_imports_nothing_heavy() -> None:
     imported = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=False)
     assert imported.returncode == 0, imported.stderr
     assert HEAVY & set(imported.stdout.split()) == set()
+
+
+def test_the_array_type_is_defined_once() -> None:
+    spelled = re.compile(r"NDArray\[np\.float64\]")
+    defined = [path.relative_to(ROOT) for path in SOURCES if spelled.search(path.read_text(encoding="utf-8"))]
+    assert defined == [Path("src/elastogeo/estimate/factor.py")]

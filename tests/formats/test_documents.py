@@ -1,5 +1,6 @@
 """Documents with units in their keys: what is read, and what is refused with one clear error."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from elastogeo.errors import FormatError, InputError
 from elastogeo.formats import find_machine, read_machine, read_simulation, read_test, shipped_machines
 from elastogeo.formats.text.toml_documents import build, read_document
+from elastogeo.machine import Length
 from elastogeo.observe import Calibration, Circle, LoadedBallBar
 
 CIRCLE = {"radius_mm": 150, "centre": {"X_mm": 1, "A_deg": 90}}
@@ -23,6 +25,20 @@ def test_feed_compound_unit_and_axis_commands():
     assert setup.feed == pytest.approx(2000 / 60)
     assert setup.setup_deflection == pytest.approx(2.33e-3)
     assert setup.circle.centre == pytest.approx({"X": 1.0, "A": 1.5707963267948966})
+
+
+@dataclass(frozen=True)
+class Optional:
+    length: Length | None = None
+    calibration: Calibration | None = None
+
+
+def test_the_unit_of_a_setting_that_may_be_left_out_is_seen():
+    table = {"length_um": 5, "calibration": {"pressure_bar": [1, 6], "force_N": [112, 742]}}
+    assert build(Optional, table, "f") == Optional(0.005, Calibration((1.0, 6.0), (112.0, 742.0)))
+    assert build(Optional, {}, "f") == Optional()
+    with pytest.raises(FormatError, match="length_N has the unit 'N'; write for example length_mm"):
+        build(Optional, {"length_N": 5}, "f")
 
 
 def test_a_calibration_table_is_read_as_tuples():

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import isfinite, pi
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, ForcePerCurrent, OptionalLength, TorquePerCurrent
+from elastogeo.machine import Array, ForcePerCurrent, Length, TorquePerCurrent
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,10 +38,10 @@ class FeedDrive:
     """
 
     axis: str
-    torque_constant: TorquePerCurrent = None
-    force_constant: ForcePerCurrent = None
-    pitch: OptionalLength = None
-    pinion_radius: OptionalLength = None
+    torque_constant: TorquePerCurrent | None = None
+    force_constant: ForcePerCurrent | None = None
+    pitch: Length | None = None
+    pinion_radius: Length | None = None
     gear_ratio: float = 1.0
     efficiency: float = 1.0
     sense: int = 1

@@ -11,7 +11,7 @@ from elastogeo.drive.feed_drive import FeedDrive
 from elastogeo.drive.model import PLAIN, TorqueModel
 from elastogeo.drive.terms import Motion
 from elastogeo.errors import InputError
-from elastogeo.machine import ROTARY, Array, OptionalDamping, OptionalFeed, OptionalInertia, OptionalTorque
+from elastogeo.machine import ROTARY, Array, Damping, Feed, Inertia, Torque
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,11 +34,11 @@ class KnownBalance:
     """
 
     axis: str
-    inertia: OptionalInertia = None
-    viscous: OptionalDamping = None
-    coulomb: OptionalTorque = None
-    constant: OptionalTorque = None
-    smooth_speed: OptionalFeed = None
+    inertia: Inertia | None = None
+    viscous: Damping | None = None
+    coulomb: Torque | None = None
+    constant: Torque | None = None
+    smooth_speed: Feed | None = None
 
     def __post_init__(self) -> None:
         """Refuse torques that would drive the motor."""

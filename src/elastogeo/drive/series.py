@@ -8,16 +8,13 @@ to it (6.16). Standard uncertainties are propagated to first order with the deri
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from elastogeo.errors import InputError
 from elastogeo.estimate import coverage_factor, effective_degrees_of_freedom
-from elastogeo.machine import Array, Forces, Lengths, LengthsPerForce
-
-OptionalLengthPerForce = Annotated[float | None, "mm_per_N"]
+from elastogeo.machine import Array, Forces, LengthPerForce, Lengths, LengthsPerForce
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,11 +37,11 @@ class SetupCompliance:
         Of the constant, or of each value of the table; None if it is not known.
     """
 
-    constant: OptionalLengthPerForce = None
+    constant: LengthPerForce | None = None
     compliance: LengthsPerForce = ()
     engagement: Lengths = ()
     force: Forces = ()
-    standard_uncertainty: OptionalLengthPerForce = None
+    standard_uncertainty: LengthPerForce | None = None
 
     def __post_init__(self) -> None:
         """Refuse what is neither a constant nor a table."""

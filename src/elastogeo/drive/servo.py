@@ -31,7 +31,7 @@ from numpy.polynomial import polynomial as poly
 from numpy.typing import ArrayLike, NDArray
 
 from elastogeo.errors import InputError, UnsupportedError
-from elastogeo.machine import Array, Damping, Inertia, OptionalFrequency, OptionalTime
+from elastogeo.machine import Array, Damping, Frequency, Inertia, Time
 
 FEEDBACKS = ("motor", "scale")
 
@@ -78,14 +78,14 @@ class ServoLoop:
     velocity_gain: Damping
     inertia: Inertia
     transmission_ratio: float = 1.0
-    integral_time: OptionalTime = None
+    integral_time: Time | None = None
     table_mass: float = 0.0
     transmission_stiffness: float | None = None
     transmission_damping: float = 0.0
     viscous: Damping = 0.0
-    electrical_frequency: OptionalFrequency = None
+    electrical_frequency: Frequency | None = None
     electrical_damping: float = 1.0
-    dead_time: OptionalTime = None
+    dead_time: Time | None = None
     feedback: str = "motor"
 
     def __post_init__(self) -> None:

@@ -14,7 +14,7 @@ from elastogeo.estimate.cone import (
 from elastogeo.estimate.confounding import NULL_TOLERANCE, RANK_TOLERANCE, Confounding, confounding
 from elastogeo.estimate.distributions import DISTRIBUTIONS, Influence, coverage_factor
 from elastogeo.estimate.estimate import Estimate
-from elastogeo.estimate.factor import BLOCK_ROWS, Factor, empty_factor, factor_blocks, merge, select
+from elastogeo.estimate.factor import BLOCK_ROWS, Array, Factor, empty_factor, factor_blocks, merge, select
 from elastogeo.estimate.propagation import (
     MonteCarlo,
     draw_estimates,
@@ -35,6 +35,7 @@ __all__ = [
     "NULL_TOLERANCE",
     "RANK_TOLERANCE",
     "SOLVABLE",
+    "Array",
     "Block",
     "Common",
     "Confounding",

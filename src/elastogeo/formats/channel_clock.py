@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 REGULAR = 1e-3
 """How far the steps of a regular clock may be from whole sample times, in sample times: the digits that clocks are written

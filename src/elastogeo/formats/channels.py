@@ -19,7 +19,6 @@ from difflib import get_close_matches
 from math import isfinite
 
 import numpy as np
-from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError, InputError
 from elastogeo.formats.channel_clock import (
@@ -36,9 +35,7 @@ from elastogeo.formats.channel_clock import (
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.units import UNITS, check_unit, spellings, split_unit, to_internal
-from elastogeo.machine import OptionalTime, Time
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array, Time
 
 GAP = 3.0
 """The longest gap that is bridged, in sample times; why: see above."""
@@ -90,8 +87,8 @@ class Clock:
         The longest gap that is bridged by a straight line; by default `GAP` sample times.
     """
 
-    sample_time: OptionalTime = None
-    longest_gap: OptionalTime = None
+    sample_time: Time | None = None
+    longest_gap: Time | None = None
 
     def __post_init__(self) -> None:
         """Refuse times that are not above zero."""

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 
 @dataclass(frozen=True, slots=True)

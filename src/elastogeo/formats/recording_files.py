@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.text.parquet_bytes import damaged, opened_parquet, pyarrow_modules, unpacked
+from elastogeo.machine import Array
 
 SCHEMA = "elastogeo.recording/1"
 PART = re.compile(r"part-(\d{6,9})\.parquet", re.ASCII)
@@ -82,7 +83,7 @@ class Samples:
 
     channel: NDArray[np.int32]
     time: NDArray[np.int64]
-    value: NDArray[np.float64]
+    value: Array
     status: NDArray[np.uint32]
     filled: NDArray[np.bool_]
 

@@ -46,18 +46,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from elastogeo.discovery import import_all
 from elastogeo.errors import FormatError
 from elastogeo.formats.text.by_content import add, format_of, opened
 from elastogeo.formats.text.table import Table
+from elastogeo.machine import Array
 
 _ADVICE = "A text file needs a line of headers with units, such as 'angle_deg,radial_um', above its numbers"
 _CHOICE = re.compile(r"(?P<path>.+)#(?P<number>\d{1,3})", re.ASCII | re.DOTALL)
 
-Writer = Callable[[Mapping[str, NDArray[np.float64]], Mapping[str, str]], bytes]
+Writer = Callable[[Mapping[str, Array], Mapping[str, str]], bytes]
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from elastogeo.errors import PathError
-from elastogeo.machine.frames import Array, LoopFrames, loop_frames
+from elastogeo.estimate import Array
+from elastogeo.machine.frames import LoopFrames, loop_frames
 from elastogeo.machine.machine import Machine
 
 UNREACHABLE_MM = 1e-9

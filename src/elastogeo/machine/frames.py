@@ -10,13 +10,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from elastogeo.errors import MachineError
+from elastogeo.estimate import Array
 from elastogeo.machine.machine import Joint, Machine
-
-Array = NDArray[np.float64]
 
 UPRIGHT: Array = np.eye(3)[np.newaxis]
 """The rotation of every frame that stands as the foundation does: this very array is passed on along the loop, so that

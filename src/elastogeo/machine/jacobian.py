@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from elastogeo.machine.frames import Array, Frame, loop_frames
+from elastogeo.estimate import Array
+from elastogeo.machine.frames import Frame, loop_frames
 from elastogeo.machine.machine import Machine
 
 COMPONENTS = "XYZABC"

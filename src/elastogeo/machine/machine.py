@@ -37,7 +37,7 @@ class Joint:
     offset: Point = _ZERO
     tilt: RotationVector = _ZERO
     travel: Travel = (-inf, inf)
-    pitch: Pitch = None
+    pitch: Pitch | None = None
     compliant: bool = True
 
     @property

@@ -1,7 +1,7 @@
 """Quantities with the unit they have inside: what the field of a setting means, for people and for the readers of files.
 
 To Python these are plain numbers; the unit rides along as an annotation, so that a file's `radius_um` or `radius_m` can be
-converted once, at the boundary, and refused when it is no length.
+converted once, at the boundary, and refused when it is no length. A setting that may be left out is written `Length | None`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Feed = Annotated[float, "mm_s"]
 Point = Annotated[tuple[float, float, float], "mm"]
 RotationVector = Annotated[tuple[float, float, float], "rad"]
 Travel = Annotated[tuple[float, float], MM_OR_RAD]
-Pitch = Annotated[float | None, MM_OR_RAD]
+Pitch = Annotated[float, MM_OR_RAD]
 Time = Annotated[float, "s"]
 Frequency = Annotated[float, "Hz"]
 Current = Annotated[float, "A"]
@@ -30,21 +30,10 @@ LengthPerForce = Annotated[float, "mm_per_N"]
 AxisCommands = Annotated[Mapping[str, float], MM_OR_RAD]
 """Commands by axis letter: each in mm or rad, as the axis is linear or rotary."""
 
-TorquePerCurrent = Annotated[float | None, "N_mm_per_A"]
-ForcePerCurrent = Annotated[float | None, "N_per_A"]
+TorquePerCurrent = Annotated[float, "N_mm_per_A"]
+ForcePerCurrent = Annotated[float, "N_per_A"]
 Inertia = Annotated[float, "N_mm_s2"]
 Damping = Annotated[float, "N_mm_s_per_rad"]
-OptionalTorque = Annotated[float | None, "N_mm"]
-OptionalInertia = Annotated[float | None, "N_mm_s2"]
-OptionalDamping = Annotated[float | None, "N_mm_s_per_rad"]
+Torque = Annotated[float, "N_mm"]
 Lengths = Annotated[tuple[float, ...], "mm"]
 LengthsPerForce = Annotated[tuple[float, ...], "mm_per_N"]
-
-OptionalAngle = Annotated[float | None, "rad"]
-OptionalTime = Annotated[float | None, "s"]
-OptionalFrequency = Annotated[float | None, "Hz"]
-OptionalFeed = Annotated[float | None, "mm_s"]
-OptionalLength = Annotated[float | None, "mm"]
-OptionalForce = Annotated[float | None, "N"]
-OptionalPressure = Annotated[float | None, "bar"]
-OptionalPoint = Annotated[tuple[float, float, float] | None, "mm"]

@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, Forces, Machine, OptionalForce, OptionalLength, OptionalPressure
+from elastogeo.machine import Array, Force, Forces, Length, Machine, Pressure
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.observations import Observations
 
@@ -40,9 +40,9 @@ class Run:
 
     name: str
     columns: Mapping[str, Array]
-    force: OptionalForce = None
-    pressure: OptionalPressure = None
-    engagement: OptionalLength = None
+    force: Force | None = None
+    pressure: Pressure | None = None
+    engagement: Length | None = None
     sense: int = 1
     repeat: int = 1
     notes: tuple[str, ...] = ()
@@ -100,7 +100,7 @@ class Question:
     """
 
     parameters: tuple[str, ...] = ("planar-xy",)
-    reference_force: OptionalForce = None
+    reference_force: Force | None = None
     prefer: tuple[str, ...] = ()
     levels: Forces = ()
     without_levels: Forces = ()
@@ -131,8 +131,8 @@ class KnownInfluence:
     kind: str
     label: str = ""
     relative: float | None = None
-    length: OptionalLength = None
-    force: OptionalForce = None
+    length: Length | None = None
+    force: Force | None = None
     distribution: str = "normal"
     degrees_of_freedom: float = inf
 

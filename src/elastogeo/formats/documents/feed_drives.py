@@ -44,7 +44,7 @@ from elastogeo.errors import FormatError, InputError
 from elastogeo.formats.channels import ChannelUse, Clock, OnOneClock, on_one_clock
 from elastogeo.formats.log_files import read_log
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
-from elastogeo.machine import Array, OptionalFeed, OptionalFrequency, Time
+from elastogeo.machine import Array, Feed, Frequency, Time
 
 Centre = Annotated[tuple[float, float], "mm"]
 
@@ -69,14 +69,14 @@ class ModelDocument:
     """
 
     terms: tuple[str, ...] = PLAIN
-    least_speed: OptionalFeed = None
-    smooth_speed: OptionalFeed = None
-    stribeck_speed: OptionalFeed = None
+    least_speed: Feed | None = None
+    smooth_speed: Feed | None = None
+    stribeck_speed: Feed | None = None
     delay: Time = 0.0
     neighbours: float = 0.0
     search: tuple[str, ...] = ()
     compare: bool = True
-    cutoff: OptionalFrequency = None
+    cutoff: Frequency | None = None
 
 
 @dataclass(frozen=True, slots=True)

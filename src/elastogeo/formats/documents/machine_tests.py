@@ -16,7 +16,7 @@ from elastogeo.formats.run_files import read_run, run_formats
 from elastogeo.formats.text.by_content import HEAD
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
-from elastogeo.machine import OptionalForce, OptionalLength, OptionalPressure, OptionalTime
+from elastogeo.machine import Force, Length, Pressure, Time
 from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, instrument_named
 
 SCHEMA = "elastogeo.test/1"
@@ -33,13 +33,13 @@ class RunDocument:
 
     file: str
     name: str = ""
-    force: OptionalForce = None
-    pressure: OptionalPressure = None
-    engagement: OptionalLength = None
+    force: Force | None = None
+    pressure: Pressure | None = None
+    engagement: Length | None = None
     sense: str = ""
     repeat: int = 1
-    start: OptionalTime = None
-    end: OptionalTime = None
+    start: Time | None = None
+    end: Time | None = None
 
     def __post_init__(self) -> None:
         """Refuse a sense of rotation that is none, and a part of a log that is empty."""
@@ -64,7 +64,7 @@ class TestDocument:
     runs: tuple[RunDocument, ...] = ()
     question: Question = field(default_factory=Question)
     influences: tuple[KnownInfluence, ...] = ()
-    resolution: OptionalLength = None
+    resolution: Length | None = None
     simulated: str = ""
     channels: tuple[ChannelUse, ...] = ()
     clock: Clock = field(default_factory=Clock)

@@ -28,8 +28,7 @@ from elastogeo.formats.text.delimited import MAX_LINE, NUMBER, Heading, comment_
 from elastogeo.formats.text.readings import DecimalMark
 from elastogeo.formats.text.table import MAX_COLUMNS, SHOWN, problems_error
 from elastogeo.formats.text.units import UNITS, check_unit, split_unit
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 _BLOCK = 1 << 18
 _PER_SECOND = {"s": 1.0, "sec": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "μs": 1e6, "ns": 1e9, "min": 1 / 60}

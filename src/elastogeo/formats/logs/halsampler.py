@@ -21,13 +21,11 @@ import re
 from array import array
 
 import numpy as np
-from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, register
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 MAX_PINS = 1000
 MAX_LINE = 40_000

@@ -30,8 +30,7 @@ from elastogeo.formats.log_files import LogFormat, register
 from elastogeo.formats.logs.mdf4_blocks import Blocks, text_of
 from elastogeo.formats.logs.mtconnect_observations import stamp_of
 from elastogeo.formats.text.units import UNITS, to_internal
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 MAX_CHANNELS = 2000
 

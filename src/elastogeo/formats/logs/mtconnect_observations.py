@@ -17,8 +17,6 @@ from numpy.typing import NDArray
 from elastogeo.errors import FormatError
 from elastogeo.formats.log import Channel
 
-Array = NDArray[np.float64]
-
 MAX_ITEMS = 2000
 COARSE = 0.1
 """Share of an item's observations that may be dropped because others have the same time."""

@@ -38,8 +38,8 @@ from elastogeo.formats.recording_files import (
 from elastogeo.formats.text.parquet_bytes import can_read, damaged, pyarrow_modules
 from elastogeo.formats.text.table import MAX_COLUMNS
 from elastogeo.formats.text.units import UNITS, check_unit, split_unit
+from elastogeo.machine import Array
 
-Array = NDArray[np.float64]
 Nanoseconds = NDArray[np.int64]
 
 SHOWN = 20

@@ -22,14 +22,12 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.log import Channel, Log, in_time_order
 from elastogeo.formats.log_files import LogFormat, register
 from elastogeo.formats.text.table import MAX_COLUMNS
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 _COUNTER = "CYCLE"
 _TURN = 2.0**31

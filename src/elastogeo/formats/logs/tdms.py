@@ -31,8 +31,7 @@ from elastogeo.errors import FormatError
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, register
 from elastogeo.formats.text.units import UNITS
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 _TAG = b"TDSm"
 _LEAD = 28

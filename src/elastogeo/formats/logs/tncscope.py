@@ -24,14 +24,12 @@ from collections.abc import Mapping
 from typing import TextIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, register
 from elastogeo.formats.text.units import UNITS
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 MAX_LINE = 20_000
 MAX_CHANNELS = 1000

@@ -13,13 +13,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.text.table import Column, Table
 from elastogeo.formats.text.units import UNITS, split_unit, to_internal
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 TOLERANCE = 0.05
 """How far the arc that feed and sample rate make may be from the stated one; a control keeps its feed better than that."""

@@ -16,7 +16,6 @@ import re
 from array import array
 
 import numpy as np
-from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.run_files import RunFormat, only_run, register
@@ -25,8 +24,7 @@ from elastogeo.formats.text.delimited import NUMBER
 from elastogeo.formats.text.table import SHOWN, Table, problems_error
 from elastogeo.formats.text.units import UNITS, to_internal
 from elastogeo.formats.text.xml_elements import Element, read_elements
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 MAX_RUNS = 100
 MAX_READINGS = 200_000

@@ -6,14 +6,13 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.run_files import RunFormat, register
 from elastogeo.formats.text.parquet_bytes import can_read, opened_parquet, pyarrow_modules, unpacked
 from elastogeo.formats.text.table import SHOWN, Column, Table, parse_headers, problems_error
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 
 def read_parquet(data: bytes, source: str) -> Table:

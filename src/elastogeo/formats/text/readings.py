@@ -8,13 +8,11 @@ from itertools import chain
 from typing import TextIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.text.delimited import MAX_LINE, NUMBER, Heading, comment_text, split_cells
 from elastogeo.formats.text.table import SHOWN, Column, Table, problems_error
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 _BLOCK = 32_768
 _SURELY_DECIMAL = re.compile(r",(?!\d\d\d)|,\d{3}[\deE]|(?<!\d),|\d{4},|(?<!\d)0\d*,", re.ASCII)

@@ -6,12 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.text.units import check_unit, split_unit, to_internal
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 MAX_COLUMNS = 1000
 SHOWN = 5

@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Annotated, Any, TypeVar, cast, get_args, get_origin, get_type_hints
+from types import NoneType, UnionType
+from typing import Annotated, Any, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -218,11 +219,21 @@ def _dimensions(unit: str) -> tuple[str, ...]:
 
 
 def _unit_of(hint: Any) -> str:
+    hint = _given(hint)
     return str(hint.__metadata__[0]) if get_origin(hint) is Annotated else ""
+
+
+def _given(hint: Any) -> Any:
+    """What a field holds if it is given: the `Length` of a `Length | None`."""
+    if get_origin(hint) not in (Union, UnionType):
+        return hint
+    kinds = [kind for kind in get_args(hint) if kind is not NoneType]
+    return kinds[0] if len(kinds) == 1 else hint
 
 
 def _nested(hint: Any) -> tuple[Any, bool]:
     """The dataclass that a field holds, if any, and whether it holds several."""
+    hint = _given(hint)
     if get_origin(hint) is tuple and is_dataclass(get_args(hint)[0]):
         return get_args(hint)[0], True
     return (hint if is_dataclass(hint) else None), False

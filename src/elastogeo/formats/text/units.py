@@ -14,11 +14,10 @@ from math import pi
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from elastogeo.errors import FormatError
-
-Array = NDArray[np.float64]
+from elastogeo.machine import Array
 
 
 @dataclass(frozen=True, slots=True)

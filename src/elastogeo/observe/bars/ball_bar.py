@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, Feed, LengthPerPressure, Machine, OptionalPoint, follow
+from elastogeo.machine import Array, Feed, LengthPerPressure, Machine, Point, follow
 from elastogeo.observe.circle import Circle
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
 from elastogeo.observe.imperfection import Imperfection
@@ -44,7 +44,7 @@ class LoadedBallBar:
 
     circle: Circle
     feed: Feed
-    tool: OptionalPoint = None
+    tool: Point | None = None
     calibration: Calibration = THESIS_CALIBRATION
     setup_deflection: LengthPerPressure = 0.0
 

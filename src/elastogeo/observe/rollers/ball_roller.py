@@ -34,7 +34,7 @@ from elastogeo.machine import (
     Feed,
     Frequency,
     Machine,
-    OptionalPoint,
+    Point,
     follow,
     workpiece_ball,
 )
@@ -105,7 +105,7 @@ class BallRoller:
     least_speed: Feed = 0.5
     cutoff: Frequency = 2.0
     harmonics: int = 12
-    tool: OptionalPoint = None
+    tool: Point | None = None
 
     def __post_init__(self) -> None:
         """Refuse a set-up without drives, or with two of one axis."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, LengthPerForce, OptionalAngle
+from elastogeo.machine import Angle, Array, LengthPerForce
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +23,7 @@ class Rig:
 
     compliance: LengthPerForce
     standard_uncertainty: LengthPerForce = 0.0
-    angle: OptionalAngle = None
+    angle: Angle | None = None
 
     def __post_init__(self) -> None:
         """Refuse what is no compliance."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, AxisCommands, Machine, Motion, OptionalPoint, follow, loop_frames
+from elastogeo.machine import Array, AxisCommands, Machine, Motion, Point, follow, loop_frames
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
 from elastogeo.observe.imperfection import Imperfection
@@ -72,7 +72,7 @@ class DisplacementProbes:
     rotary_turn: Mapping[str, float] = field(default_factory=dict)
     bar_in_workpiece: bool = True
     probes_in_workpiece: bool = True
-    tool: OptionalPoint = None
+    tool: Point | None = None
     calibration: Calibration = THESIS_CALIBRATION
 
     def __post_init__(self) -> None:

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, AxisCommands, Machine, OptionalPoint, Point, loop_frames, workpiece_ball
+from elastogeo.machine import Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
@@ -106,7 +106,7 @@ class SensorFrame:
     pose: AxisCommands = field(default_factory=dict)
     lever: Point = (0.0, 0.0, 0.0)
     in_workpiece: bool = False
-    tool: OptionalPoint = None
+    tool: Point | None = None
     ramp: bool = True
 
     def __post_init__(self) -> None:

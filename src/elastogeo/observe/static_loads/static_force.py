@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from elastogeo.machine import Array, AxisCommands, Machine, OptionalPoint, Point, loop_frames, workpiece_ball
+from elastogeo.machine import Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
@@ -66,7 +66,7 @@ class StaticForce:
     pose: AxisCommands = field(default_factory=dict)
     lever: Point = (0.0, 0.0, 0.0)
     in_workpiece: bool = False
-    tool: OptionalPoint = None
+    tool: Point | None = None
     ramp: bool = True
 
     def __post_init__(self) -> None:
