@@ -21,6 +21,7 @@ from elastogeo.estimate import factor_blocks, solve
 from elastogeo.identification import Identification, confounding_of, identify, merged, noise_of, systems_of
 from elastogeo.machine import Array
 from elastogeo.observe import Imperfection, MachineTest, Observations, instruments
+from elastogeo.report import sentence_of
 from elastogeo.sources import (
     Situation,
     Source,
@@ -205,7 +206,7 @@ def test_a_deficient_question_is_refused_and_named(
         solve(merged(systems_of(test).runs))
     told = {check.name: check for check in result.verdict}["identifiable"]
     assert not told.passed
-    assert f"determines {found.rank} combinations" in told.sentence
+    assert f"determines {found.rank} combinations" in sentence_of(told)
     # nothing is lost in silence: every parameter is null, or part of what a retained one stands for
     spoken = set(found.null).union(*(found.stands_for(name) for name in found.retained))
     assert spoken == set(found.labels)

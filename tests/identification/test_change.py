@@ -28,6 +28,7 @@ from elastogeo.identification import (
 )
 from elastogeo.machine import Array
 from elastogeo.observe import Imperfection, MachineTest
+from elastogeo.report import sentence_of
 from elastogeo.sources import simulate
 
 MakeTest = Callable[..., MachineTest]
@@ -327,9 +328,9 @@ def test_compare_tests_says_what_changed(before_after: Callable[..., tuple[Machi
     (check,) = found.verdict
     assert not check.passed
     assert {d.name for d in found.differences[:2]} == {"C_XXX", "E_YY1"}
-    assert "C_XXX" in check.sentence
-    assert "E_YY1" in check.sentence
-    assert "changed by more than the uncertainty of the two tests" in check.sentence
+    assert "C_XXX" in sentence_of(check)
+    assert "E_YY1" in sentence_of(check)
+    assert "changed by more than the uncertainty of the two tests" in sentence_of(check)
     for d in found.differences:
         true = {"C_XXX": 1e-5, "E_YY1": 4e-5}.get(d.name, 0.0)
         assert d.change == pytest.approx(d.after - d.before, rel=1e-12)

@@ -16,6 +16,7 @@ from elastogeo.errors import InputError
 from elastogeo.formats.documents.feed_drives import read_drives
 from elastogeo.identification.feed_drives.axis_drives import AxisDrive, identify_drives
 from elastogeo.identification.feed_drives.verdict import acceleration_seen, digits
+from elastogeo.report import sentence_of
 
 ROOT = Path(__file__).resolve().parents[2]
 MILL = ROOT.parent / "shared" / "data" / "umich-cnc-mill"
@@ -123,8 +124,8 @@ def test_one_direction_and_a_dead_axis_each_fail_by_name_and_the_others_go_on() 
     assert y.fit is not None
     assert (z.fit, z.parameters, z.models) == (None, (), ())
     assert [check.name for check in y.verdict] == [check.name for check in z.verdict] == ["identifiable"]
-    assert "coulomb + constant is determined as one number only" in y.verdict[0].sentence
-    assert "Axis Z cannot be identified, because its effort is 0 A in all 1200 samples" in z.verdict[0].sentence
+    assert "coulomb + constant is determined as one number only" in sentence_of(y.verdict[0])
+    assert "Axis Z cannot be identified, because its effort is 0 A in all 1200 samples" in sentence_of(z.verdict[0])
     assert all(axis.verdict[0].decisive for axis in result.axes)
     assert [name.partition(":")[0] for name in (check.name for check in result.verdict)][-1] == "Z"
 
@@ -155,10 +156,10 @@ def test_a_run_at_rest_adds_nothing_and_says_so_when_it_is_held_out() -> None:
     runs = (*(wander(seed) for seed in range(4)), still)
     (found,) = identify_drives(DriveTest("still", runs, compare=False)).axes
     assert found.fit.samples["still"] == 0
-    assert "the scatter of 4 runs" in found.verdict[3].sentence
+    assert "the scatter of 4 runs" in sentence_of(found.verdict[3])
     (found,) = identify_drives(DriveTest("still", runs, held_out=("still",), compare=False)).axes
     assert not checks(found)["held-out runs predicted"]
-    assert any("No sample of the held-out runs can be used" in check.sentence for check in found.verdict)
+    assert any("No sample of the held-out runs can be used" in sentence_of(check) for check in found.verdict)
 
 
 def test_friction_that_drives_the_axis_is_called_impossible() -> None:

@@ -24,6 +24,7 @@ from elastogeo.identification import (
 )
 from elastogeo.machine import Array
 from elastogeo.observe import Circle, Imperfection, MachineTest, Residue
+from elastogeo.report import sentence_of
 from elastogeo.sources import simulate
 
 MakeTest = Callable[..., MachineTest]
@@ -39,19 +40,19 @@ def test_a_sound_test_passes_every_check(make_test: MakeTest) -> None:
     test = make_test("wFYXt", [100.0, 700.0], parameters=["C_XXX", "C_YYY", "C_CCY"])
     verdict = verdict_of(replace(simulate(test, TRUTH, Imperfection(noise=1e-5), exact=False), resolution=RESOLUTION))
     for name in ("identifiable", "forces distinct", "conditioned", "residuals without structure", "above resolution"):
-        assert verdict[name].passed, verdict[name].sentence
+        assert verdict[name].passed, sentence_of(verdict[name])
 
 
 def test_confounded_parameters_are_not_called_identifiable(make_test: MakeTest) -> None:
     check = verdict_of(simulate(make_test("wFYXt", [100.0]), TRUTH, exact=False))["identifiable"]
     assert not check.passed
-    assert check.sentence.startswith("Of 18 parameters the test determines 6 combinations: 5 change no reading")
+    assert sentence_of(check).startswith("Of 18 parameters the test determines 6 combinations: 5 change no reading")
 
 
 def test_one_force_level_is_called_so(make_test: MakeTest) -> None:
     check = verdict_of(simulate(make_test("wFYXt", [100.0]), TRUTH, exact=False))["forces distinct"]
     assert not check.passed
-    assert "All runs are at 100 N" in check.sentence
+    assert "All runs are at 100 N" in sentence_of(check)
 
 
 def test_close_force_levels_are_ill_conditioned(make_test: MakeTest) -> None:
@@ -62,7 +63,7 @@ def test_close_force_levels_are_ill_conditioned(make_test: MakeTest) -> None:
     )
     assert far.passed
     assert not near.passed
-    assert f"above the limit of {CONDITION_LIMIT:g}; add force levels further apart" in near.sentence
+    assert f"above the limit of {CONDITION_LIMIT:g}; add force levels further apart" in sentence_of(near)
 
 
 def test_structure_in_the_residuals_is_named_with_its_order_and_size(make_test: MakeTest) -> None:
@@ -70,16 +71,16 @@ def test_structure_in_the_residuals_is_named_with_its_order_and_size(make_test: 
     noise = Imperfection(noise=1e-5, residue=(Residue(5, 3e-4, phase=0.3),))
     check = verdict_of(simulate(test, TRUTH, noise, exact=False))["residuals without structure"]
     assert not check.passed
-    assert re.match(r"A harmonic of order 5 with an amplitude of 0\.30?\d? um is left in run 100 N, 1", check.sentence)
-    assert "2 of 2 runs" in check.sentence
+    assert re.match(r"A harmonic of order 5 with an amplitude of 0\.30?\d? µm is left in run 100 N, 1", sentence_of(check))
+    assert "2 of 2 runs" in sentence_of(check)
 
 
 def test_a_parameter_below_the_resolution_is_named(make_test: MakeTest) -> None:
     test = simulate(make_test("wFYXt", [100.0, 700.0], readings=72), TRUTH | {"C_CCY": 2e-11}, exact=False)
     check = verdict_of(replace(test, resolution=RESOLUTION))["above resolution"]
     assert not check.passed
-    assert "C_CCY (0.079 um)" in check.sentence
-    assert "was not given" in verdict_of(test)["above resolution"].sentence
+    assert "C_CCY (0.079 µm)" in sentence_of(check)
+    assert "does not state the resolution" in sentence_of(verdict_of(test)["above resolution"])
 
 
 def test_the_users_preference_is_retained_instead(make_test: MakeTest) -> None:

@@ -20,6 +20,7 @@ from elastogeo.identification import (
     with_question,
 )
 from elastogeo.observe import Imperfection, MachineTest
+from elastogeo.report import sentence_of
 from elastogeo.sources import simulate
 
 MakeTest = Callable[..., MachineTest]
@@ -138,7 +139,7 @@ def test_identify_says_which_model_the_data_support(make_test: MakeTest, thesis_
         result = identify(simulate(blank, truth, IMPERFECTION, exact=False))
         (check,) = (check for check in result.verdict if check.name == "model adequate")
         assert check.passed is passed
-        assert check.sentence.startswith(words)
+        assert sentence_of(check).startswith(words)
 
 
 def test_two_levels_cannot_say(make_test: MakeTest) -> None:

@@ -19,6 +19,7 @@ from elastogeo.identification.static_tests.drive_train import (
     OnAxisRecord,
     where_in_the_drive,
 )
+from elastogeo.report import sentence_of
 
 SPRINGS = {SERVO: 2e-5, TRANSMISSION: 5e-5, STRUCTURE: 3e-5}
 """Simulated truth [mm/N]."""
@@ -88,7 +89,7 @@ def test_one_run_is_a_straight_line_by_readings_and_the_verdict_says_so() -> Non
     assert (part.value, part.standard_uncertainty) == (pytest.approx(line.slope), pytest.approx(line.stderr))
     assert part.interval()[1] - part.value == pytest.approx(t.ppf(0.975, 38) * line.stderr, rel=1e-9)
     assert not found.verdict[0].passed
-    assert "because 1 run is too few" in found.verdict[0].sentence
+    assert "because 1 run is too few" in sentence_of(found.verdict[0])
 
 
 def test_backlash_is_told_from_the_transmission_when_the_velocity_is_logged() -> None:
@@ -188,7 +189,7 @@ def test_a_channel_of_the_wrong_sign_shows_as_a_negative_spring() -> None:
     record = simulated(noise=1e-4)
     wrong = where_in_the_drive(replace(record, motor=2 * record.command - record.motor))  # type: ignore[operator]
     assert [check.name for check in wrong.verdict if not check.passed] == ["springs in series"]
-    assert "The compliance of servo is negative" in wrong.verdict[1].sentence
+    assert "The compliance of servo is negative" in sentence_of(wrong.verdict[1])
     assert wrong.verdict[1].decisive
 
 

@@ -15,6 +15,7 @@ from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.estimate import HUBER, huber_weights
 from elastogeo.identification import identify, systems_of, what_reciprocity_buys, with_question
 from elastogeo.observe import Imperfection, KnownInfluence, MachineTest
+from elastogeo.report import sentence_of
 from elastogeo.sources import simulate
 
 MakeTest = Callable[..., MachineTest]
@@ -60,7 +61,7 @@ def test_outliers_move_the_robust_estimate_less_and_the_verdict_counts_them(make
     truth = np.array([TRUTH[name] for name in identify(test).solution.labels])
     plain, robust = identify(test), identify(with_question(test, robust=True))
     assert (np.abs(robust.solution.values / truth - 1) < 0.2 * np.abs(plain.solution.values / truth - 1).max()).all()
-    sentence = next(check.sentence for check in robust.verdict if check.name == "outliers")
+    sentence = next(sentence_of(check) for check in robust.verdict if check.name == "outliers")
     assert "readings count less than one" in sentence
     assert "2.6 %" in sentence
 
@@ -97,7 +98,7 @@ def test_random_draws_stand_beside_the_first_order(make_test: MakeTest) -> None:
     result = identify(replace(noisy(make_test, repeats=4), influences=known))
     assert result.agreement is not None
     check = next(check for check in result.verdict if check.name == "first order enough")
-    assert "Monte Carlo trials" in check.sentence
+    assert "Monte Carlo trials" in sentence_of(check)
     k = result.solution.labels.index("C_XXX")
     drawn = result.agreement.draws
     assert_allclose(drawn.standard_uncertainty[k], result.budget.standard_uncertainty[k], rtol=0.1)

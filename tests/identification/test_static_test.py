@@ -25,6 +25,7 @@ from elastogeo.observe import (
     SensorFrame,
     StaticForce,
 )
+from elastogeo.report import sentence_of
 from elastogeo.sources import simulate
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -86,7 +87,7 @@ def test_a_wrong_sign_along_the_force_is_decisive_and_across_it_is_none() -> Non
     runs = [ramp(sense=-1.0), ramp("b", 2, sense=-1.0)]
     found = static_results(a_test(runs))
     assert "displacement with the force" in failed(found, decisive=True)
-    assert any("in run r, -0.0" in check.sentence and "turn the sensor's sign" in check.sentence for check in found.verdict)
+    assert any("in run r, -0.0" in said and "turn the sensor's sign" in said for said in map(sentence_of, found.verdict))
     across = static_results(a_test(runs, sensor=(0.0, 1.0, 0.0), question=Question(("C_YXX", "E_R0"))))
     assert not across.places[0].along
     assert "displacement with the force" not in {check.name for check in across.verdict}
@@ -97,7 +98,7 @@ def test_a_loop_that_gains_energy_is_decisive() -> None:
     (check,) = [check for check in found.verdict if check.name == "energy is lost, not gained"]
     assert check.decisive
     assert not check.passed
-    assert "in run r; the loop runs the wrong way round" in check.sentence
+    assert "in run r; the loop runs the wrong way round" in sentence_of(check)
 
 
 def test_places_and_directions_have_lines_of_their_own() -> None:
@@ -134,7 +135,7 @@ def test_a_stated_influence_is_said_to_count_in_the_joints_only() -> None:
     assert "systematic influences" not in failed(static_results(plain))
     found = static_results(stated)
     (check,) = [check for check in found.verdict if check.name == "systematic influences"]
-    assert check.sentence.startswith(
+    assert sentence_of(check).startswith(
         "The uncertainties of the joints hold those of load cell; those of the instrument's own"
     )
     assert found.joints.budget.standard_uncertainty[0] > 0.0099 * SOFT
@@ -150,7 +151,7 @@ def test_one_branch_only_leaves_the_line_and_says_why_there_is_no_loop() -> None
     assert "only a rising branch covers its range of 400 N" in runs[0].refusal
     assert runs[1].hysteresis is not None
     (check,) = [check for check in found.verdict if check.name == "loading cycles"]
-    assert check.sentence.startswith(
+    assert sentence_of(check).startswith(
         "1 of 2 runs say nothing of hysteresis. Run half: of 1 branches of the force only a rising"
     )
     assert found.places[0].line is not None
@@ -300,7 +301,7 @@ def test_a_sensor_that_lies_is_named_with_its_run() -> None:
     assert [run.twist.suspect for run in found.twists] == [None, 2]
     (check,) = [check for check in found.verdict if check.name == "sensors agree"]
     assert not check.passed
-    assert "stands out: sensor 2 in run s." in check.sentence
+    assert "stands out: sensor 2 in run s." in sentence_of(check)
 
 
 def test_a_frame_that_cannot_see_the_twist_says_so_and_the_joints_stand() -> None:
@@ -319,7 +320,7 @@ def test_six_sensors_count_on_the_resolution() -> None:
     # a rectangular distribution of that width
     assert run.twist.standard_deviation == pytest.approx(1e-4 / np.sqrt(12))
     found = static_results(frame_test(sensors=6, resolution=1e-4))
-    assert any("Nothing checks sensor 1, 2, 3, 4, 5, 6" in check.sentence for check in found.verdict)
+    assert any("Nothing checks sensor 1, 2, 3, 4, 5, 6" in sentence_of(check) for check in found.verdict)
 
 
 def test_another_instrument_is_sent_to_its_own_command(make_test) -> None:

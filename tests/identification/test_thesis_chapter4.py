@@ -21,6 +21,7 @@ from elastogeo.identification import (
 )
 from elastogeo.machine import Array, Joint, Machine, parse_topology
 from elastogeo.observe import THESIS_CALIBRATION, Circle, MachineTest, Run, force_from_pressure
+from elastogeo.report import sentence_of
 from elastogeo.sources import simulate
 
 MakeTest = Callable[..., MachineTest]
@@ -252,9 +253,9 @@ def test_c_ccy_is_below_the_resolution_of_the_readings(section_4_6: Identificati
     assert sum(parameter.share for parameter in section_4_6.parameters) == pytest.approx(1.0)
     check = {check.name: check for check in section_4_6.verdict}["above resolution"]
     assert not check.passed
-    assert "C_CCY (0.069 um)" in check.sentence
-    assert "C_XXX" not in check.sentence
-    assert "0.24 um" in check.sentence
+    assert "C_CCY (0.069 µm)" in sentence_of(check)
+    assert "C_XXX" not in sentence_of(check)
+    assert "0.24 µm" in sentence_of(check)
 
 
 def elasto_geometric(make_test: MakeTest, forces: tuple[float, ...], radius: float = 150.0) -> MachineTest:
@@ -269,7 +270,7 @@ def test_one_force_level_cannot_tell_load_from_geometry(make_test: MakeTest) -> 
     assert "E_XX1" in found.stands_for("C_XXX")
     checks = {check.name: check for check in identify(test).verdict}
     assert not checks["forces distinct"].passed
-    assert "two distinct forces are mandatory" in checks["forces distinct"].sentence
+    assert "two distinct forces are mandatory" in sentence_of(checks["forces distinct"])
     assert not checks["identifiable"].passed
 
 

@@ -25,6 +25,7 @@ from elastogeo.identification import (
 )
 from elastogeo.machine import Array
 from elastogeo.observe import Imperfection, MachineTest
+from elastogeo.report import sentence_of
 from elastogeo.sources import exact_response, linear_response, parameter_values, simulate
 
 MakeTest = Callable[..., MachineTest]
@@ -249,14 +250,14 @@ def test_one_level_is_refused_in_words(make_test: MakeTest) -> None:
     result = identify(simulate(make_test("wFYXt", [742.0], parameters=THIRTEEN), GLOBAL, Imperfection(noise=1e-4)))
     assert result.confounding.rank == 8 == np.linalg.matrix_rank(scaled(by_hand([742.0])[1]))
     verdict = verdict_of(result)
-    assert verdict["identifiable"].sentence.startswith("Of 13 parameters the test determines 8 combinations")
+    assert sentence_of(verdict["identifiable"]).startswith("Of 13 parameters the test determines 8 combinations")
     told = verdict["separated"]
     assert told.decisive
     assert not told.passed
-    assert told.sentence.startswith("Compliance and geometry cannot be told apart in 5 of 8 combinations")
+    assert sentence_of(told).startswith("Compliance and geometry cannot be separated in 5 of 8 combinations")
     together = {"C_XXX": "E_XX1", "C_XYX": "E_C(0Y)X", "C_YYY": "E_YY1", "C_CXY": "E_YX2", "C_CYY": "E_XY2"}
     for elastic, geometric in together.items():
-        assert f"{elastic} with {geometric}" in told.sentence
+        assert f"{elastic} with {geometric}" in sentence_of(told)
         (parameter,) = (p for p in result.parameters if p.name == elastic)
         assert not parameter.separated
         factor = RADIUS**2 if geometric == "E_YX2" or geometric == "E_XY2" else RADIUS
@@ -266,7 +267,7 @@ def test_one_level_is_refused_in_words(make_test: MakeTest) -> None:
         (parameter,) = (p for p in result.parameters if p.name == name)
         assert parameter.separated
         assert tuple(parameter.stands_for) == (name,)
-    assert "two distinct forces are mandatory" in verdict["forces distinct"].sentence
+    assert "two distinct forces are mandatory" in sentence_of(verdict["forces distinct"])
     assert result.models is None
     assert result.consistency is None
 
@@ -275,9 +276,9 @@ def test_two_levels_tell_all_thirteen(make_test: MakeTest) -> None:
     result = identify(simulate(make_test("wFYXt", [36.0, 742.0], parameters=THIRTEEN), GLOBAL, Imperfection(noise=1e-4)))
     assert result.confounding.rank == 13 == np.linalg.matrix_rank(scaled(by_hand([36.0, 742.0])[1]))
     verdict = verdict_of(result)
-    assert verdict["identifiable"].sentence == "All 13 parameters are determined by the test."
+    assert sentence_of(verdict["identifiable"]) == "All 13 parameters are determined by the test."
     assert verdict["separated"].passed
-    assert "no combination mixes the two" in verdict["separated"].sentence
+    assert "no combination mixes the two" in sentence_of(verdict["separated"])
     assert all(parameter.separated for parameter in result.parameters)
 
 
@@ -382,7 +383,7 @@ def test_a_bar_length_error_is_equal_gains_of_both_axes(make_test: MakeTest, the
         expected = 1e-4 if parameter.name in ("E_XX1", "E_YY1") else 0.0
         k = result.naive.labels.index(parameter.name)
         assert abs(parameter.value - expected) < 5 * result.naive.standard_uncertainty[k]
-    assert "13 combinations" in verdict_of(result)["identifiable"].sentence
+    assert "13 combinations" in sentence_of(verdict_of(result)["identifiable"])
 
 
 def test_rmse_and_fitness_are_those_of_5_40_and_5_41(noisy: tuple[Systems, Identification]) -> None:

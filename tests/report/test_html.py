@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from elastogeo.report import html_report, parameter_rows, save_html
+from elastogeo.report import html_report, parameter_rows, save_html, sentence_of
 from elastogeo.report.numbers import micro, pretty
 
 ATTACK = "<script>alert('x')</script><img src=https://evil.example/x onerror=alert(1)>"
@@ -79,7 +79,7 @@ def test_it_asks_for_nothing_and_runs_nothing(name, request) -> None:
 def test_names_from_files_are_text(rich) -> None:
     machine = replace(rich.test.machine, name=f"{ATTACK}machine", assumed=(f"{ATTACK}offsets",))
     test = replace(rich.test, name=f"{ATTACK}test", machine=machine, simulated=f"{ATTACK}truth")
-    checks = tuple(replace(check, sentence=f"{ATTACK}{check.sentence}") for check in rich.verdict)
+    checks = tuple(replace(check, facts={"said": f"{ATTACK}{sentence_of(check)}"}) for check in rich.verdict)
     text = html_report(replace(rich, test=test, verdict=checks))
     page = Page(text)
     assert "<script" not in text
@@ -96,7 +96,7 @@ def test_simulated_data_say_so_and_measured_do_not(rich_page, poor) -> None:
 def test_the_verdict_comes_first_and_in_words(rich, rich_page) -> None:
     words = words_of(rich_page)
     for check in rich.verdict:
-        at = words.index(f"{check.name}{pretty(micro(check.sentence))}")
+        at = words.index(f"{check.name}{pretty(micro(sentence_of(check)))}")
         assert words[:at].rstrip().endswith("Passed" if check.passed else "Attention")
         assert at < words.index("Value ± U")
     passed = sum(check.passed for check in rich.verdict)
@@ -136,7 +136,9 @@ def test_what_must_be_said_openly(rich, rich_page, poor, geometric) -> None:
 
 
 def test_residuals_with_structure_are_said_beside_the_uncertainties(rich, rich_page) -> None:
-    checks = tuple(replace(check, passed=check.name != "residuals without structure") for check in rich.verdict)
+    left = {"rmse": 1e-4, "by_run": False, "runs": 2, "structured": 1, "run": "r", "order": 5, "amplitude": 1e-4}
+    structured = Check("residuals without structure", False, left)
+    checks = tuple(structured if check.name == structured.name else check for check in rich.verdict)
     assert "The true uncertainty is larger than U" in words_of(html_report(replace(rich, verdict=checks)))
     assert "The true uncertainty is larger" not in words_of(rich_page)
 

@@ -12,7 +12,7 @@ from importlib.resources import files
 import pytest
 import typst
 
-from elastogeo.report import MissingExtraError, parameter_rows, pdf_report, save_pdf
+from elastogeo.report import MissingExtraError, parameter_rows, pdf_report, save_pdf, sentence_of
 from elastogeo.report.context import report_context
 from elastogeo.report.figures import ALTERNATIVES, figure_bytes, figures
 from elastogeo.report.numbers import pretty
@@ -75,7 +75,7 @@ def test_it_asks_for_no_network_and_no_font_of_the_system(poor, monkeypatch) -> 
 def test_names_from_files_are_text(poor) -> None:
     machine = replace(poor.test.machine, name=f"{HOSTILE}machine", assumed=(HOSTILE,))
     test = replace(poor.test, name=f"{HOSTILE}test", machine=machine, simulated=HOSTILE)
-    checks = tuple(replace(check, sentence=f"{HOSTILE}{check.sentence}") for check in poor.verdict)
+    checks = tuple(replace(check, facts={"said": f"{HOSTILE}{sentence_of(check)}"}) for check in poor.verdict)
     hostile = replace(poor, test=test, verdict=checks)
     assert pdf_report(hostile).startswith(b"%PDF")
     template = files("elastogeo.report").joinpath("templates", "report.typ").read_bytes()

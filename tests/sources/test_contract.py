@@ -16,6 +16,7 @@ from elastogeo.estimate import Confounding, solve
 from elastogeo.identification import Systems, confounding_of, identify, merged, systems_of, with_question
 from elastogeo.machine import Array, Joint, Machine, parse_topology
 from elastogeo.observe import Circle, Imperfection, LoadedBallBar, MachineTest, Question, Run
+from elastogeo.report import sentence_of
 from elastogeo.sources import PRESETS, families, select_sources, simulate
 
 MakeTest = Callable[..., MachineTest]
@@ -162,7 +163,7 @@ def test_identify_says_in_words_what_one_direction_leaves_together(make_test: Ma
     result = identify(simulate(test, {"T_X1": 1e-3}, Imperfection(noise=1e-5), exact=False))
     check = next(check for check in result.verdict if check.name == "identifiable")
     assert not check.passed
-    assert "Of 4 parameters the test determines 3 combinations" in check.sentence
+    assert "Of 4 parameters the test determines 3 combinations" in sentence_of(check)
     (squareness,) = (p for p in result.parameters if p.name == "E_C(0Y)X")
     assert set(squareness.stands_for) == {"E_C(0Y)X", "T_X1"}
 

@@ -35,5 +35,5 @@ Robust = Annotated[bool, typer.Option("--robust", help="Let outlying readings co
 
 def refuse_if(verdict: Iterable[Check]) -> None:
     """End with exit code 1 if a decisive check of a verdict failed: the data do not support what was asked."""
-    if any(check.decisive and not check.passed for check in verdict):
+    if any(check.decisive and check.passed is False for check in verdict):
         raise typer.Exit(1)

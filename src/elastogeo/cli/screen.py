@@ -26,6 +26,7 @@ from elastogeo.report import (
     save_figures,
     save_html,
     save_pdf,
+    sentence_of,
     what_if_rows,
 )
 
@@ -209,6 +210,6 @@ def _stands_for(found: Confounding) -> None:
 
 def show_check(check: Check) -> None:
     """One point of a verdict."""
-    mark, style = ("ok", "green") if check.passed else ("look", "yellow")
+    mark, style = {True: ("ok", "green"), None: ("n/t", "dim")}.get(check.passed, ("look", "yellow"))
     _console.print(f"[{style}]{mark:>4}[/{style}]  ", end="")
-    say(f"{check.name}: {check.sentence}")
+    say(f"{check.name}: {sentence_of(check)}")

@@ -146,7 +146,7 @@ def _held_against_draws(
     try:
         drawn = agreement(systems, result.solution, known, result.budget)
     except UnsupportedError as error:
-        return result, Check("first order enough", False, f"This could not be judged: {error}.")
+        return result, Check("first order enough", None, {"why": str(error)})
     return replace(result, agreement=drawn), first_order_enough(drawn, result.solution.labels)
 
 
@@ -155,7 +155,7 @@ def _held_against_physics(result: Identification) -> tuple[Identification, Check
     try:
         found = consistency_of(result)
     except (InputError, UnsupportedError) as error:
-        return result, Check("physically consistent", False, f"This could not be judged: {error}.")
+        return result, Check("physically consistent", None, {"said": f"Not judged: {error}."})
     return replace(result, consistency=found), found.check
 
 

@@ -119,7 +119,7 @@ class Consistency:
     @property
     def check(self) -> Check:
         """For the verdict of an identification: failed if the data contradict physics."""
-        return Check("physically consistent", self.state != CONTRADICTED, self.sentence)
+        return Check("physically consistent", self.state != CONTRADICTED, {"said": self.sentence})
 
 
 @dataclass(frozen=True, slots=True)

@@ -45,6 +45,7 @@ from elastogeo.report.findings import (
 from elastogeo.report.html import html_report, save_html
 from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
 from elastogeo.report.pdf import pdf_report, save_pdf
+from elastogeo.report.sentences import says, sentence_of
 from elastogeo.report.static import StaticTable, hysteresis_figure, save_static, static_tables
 from elastogeo.report.stiffness import (
     BalanceRow,
@@ -110,8 +111,10 @@ __all__ = [
     "save_pdf",
     "save_static",
     "save_stiffness",
+    "says",
     "score_rows",
     "searched_sentence",
+    "sentence_of",
     "significant",
     "static_json",
     "static_tables",

@@ -14,6 +14,7 @@ from elastogeo.report.as_json.envelope import instrument_name
 from elastogeo.report.budgets import budget_tables, degrees, uncertainty_table
 from elastogeo.report.findings import diagnosis_of, diagnosis_rows
 from elastogeo.report.numbers import micro, pretty, probability, significant, value_with_uncertainty, written_unit
+from elastogeo.report.sentences import sentence_of
 from elastogeo.report.text import (
     UM,
     all_separated,
@@ -53,8 +54,11 @@ def report_context(result: Identification) -> Context:
         "facts": facts(result),
         "banner": banner(result),
         "sums": [pretty(label(p)) for p in result.parameters if not p.separated],
-        "verdict": [{"name": c.name, "passed": c.passed, "sentence": pretty(micro(c.sentence))} for c in result.verdict],
-        "headline": _headline(sum(not check.passed for check in result.verdict), len(result.verdict)),
+        "verdict": [
+            {"name": c.name, "passed": c.passed is not False, "sentence": pretty(micro(sentence_of(c)))}
+            for c in result.verdict
+        ],
+        "headline": _headline(sum(check.passed is False for check in result.verdict), len(result.verdict)),
         "brief": _brief(result),
         "rows": _printed(parameter_rows(result)),
         "stands": any(p.separated and len(p.stands_for) > 1 for p in result.parameters),

@@ -9,6 +9,7 @@ from elastogeo.estimate import Confounding
 from elastogeo.identification import SCATTER, SIGNIFICANT, Comparison, Identification, Parameter
 from elastogeo.observe import BallRoller, LoadedBallBar, MachineTest
 from elastogeo.report.numbers import micro, probability, significant
+from elastogeo.report.sentences import sentence_of
 from elastogeo.report.text import all_separated
 
 REPEATABILITY = (
@@ -66,7 +67,7 @@ def uncertainty_words(result: Identification) -> list[str]:
             f"every run leaves over alike does not scatter."
         ]
     else:
-        checked = next((check.sentence for check in result.verdict if check.name == "uncertainty by run"), None)
+        checked = next((sentence_of(check) for check in result.verdict if check.name == "uncertainty by run"), None)
         words = [micro(checked or "The uncertainties count on independent readings; those along a trace rarely are.")]
     stated = influences(result)
     if stated:
@@ -157,7 +158,7 @@ def keep_in_mind(result: Identification) -> list[str]:
 
 def structure_words(result: Identification) -> list[str]:
     """What residuals with structure mean for the uncertainty; nothing if they look like noise."""
-    if not any(check.name == "residuals without structure" and not check.passed for check in result.verdict):
+    if not any(check.name == "residuals without structure" and check.passed is False for check in result.verdict):
         return []
     if result.by_run:
         return [

@@ -118,11 +118,17 @@ def _verdict(differences: Sequence[Difference], joint: Change) -> Check:
     """Whether anything changed: each parameter at a level that allows for their number."""
     changed = [d.name for d in differences if d.p_value < SIGNIFICANT / len(differences)]
     if changed:
-        return Check("unchanged", False, f"{', '.join(changed)} changed by more than the uncertainty of the two tests.")
+        return Check(
+            "unchanged", False, {"said": f"{', '.join(changed)} changed by more than the uncertainty of the two tests."}
+        )
     if joint.significant:
         return Check(
-            "unchanged", False, f"Together the parameters changed (p = {joint.p_value:.2g}), none of them by itself."
+            "unchanged",
+            False,
+            {"said": f"Together the parameters changed (p = {joint.p_value:.2g}), none of them by itself."},
         )
     return Check(
-        "unchanged", True, f"No parameter changed by more than the uncertainty of the two tests (p = {joint.p_value:.2g})."
+        "unchanged",
+        True,
+        {"said": f"No parameter changed by more than the uncertainty of the two tests (p = {joint.p_value:.2g})."},
     )

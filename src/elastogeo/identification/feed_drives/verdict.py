@@ -39,15 +39,15 @@ _MOST_DIGITS = 6
 def drive_verdict(found: AxisDrive, records: Sequence[DriveRecord]) -> tuple[Check, ...]:
     """All checks of one axis; only the first if it cannot be identified."""
     if found.fit is None:
-        return (Check("identifiable", False, sentence_case(found.refusal), decisive=True),)
+        return (Check("identifiable", False, {"said": sentence_case(found.refusal)}, decisive=True),)
     fit, kind = found.fit, found.effort_unit
     if not fit.separated:
-        return (Check("identifiable", False, sentence_case(fit.sentence), decisive=True),)
+        return (Check("identifiable", False, {"said": sentence_case(fit.sentence)}, decisive=True),)
     count = len(fit.solution.labels)
     checks = [
-        Check("identifiable", True, f"All {count} parameters are determined by the records.", decisive=True),
+        Check("identifiable", True, {"said": f"All {count} parameters are determined by the records."}, decisive=True),
         _possible(found),
-        conditioned(fit.confounding, "record more feeds and accelerations, in both directions"),
+        conditioned(fit.confounding, "motion"),
         _counted(fit.counted, sum(count > 0 for count in fit.samples.values())),
     ]
     if found.held_out:
@@ -94,30 +94,36 @@ def acceleration_seen(records: Sequence[DriveRecord]) -> float:
 def _possible(found: AxisDrive) -> Check:
     below = [p.name for p in found.parameters if p.name in NEVER_NEGATIVE and p.interval[1] < 0]
     if not below:
-        return Check("physically possible", True, "No inertia and no friction is negative beyond its uncertainty.")
+        return Check("physically possible", True, {"said": "No inertia and no friction is negative beyond its uncertainty."})
     return Check(
         "physically possible",
         False,
-        f"{', '.join(below)} is negative, and its interval excludes zero. No drive moves by its own friction or inertia: "
-        f"check the sign of the effort, or the terms of the model.",
+        {
+            "said": f"{', '.join(below)} is negative, and its interval excludes zero. No drive moves by its own friction or inertia: "
+            f"check the sign of the effort, or the terms of the model."
+        },
     )
 
 
 def _counted(counted: str, runs: int) -> Check:
     if counted == "runs":
-        return Check("uncertainty by run", True, f"The uncertainties count on the scatter of {runs} runs.")
+        return Check("uncertainty by run", True, {"said": f"The uncertainties count on the scatter of {runs} runs."})
     if counted == "pieces":
         return Check(
             "uncertainty by run",
             False,
-            f"{runs} runs are too few, so the uncertainties count on the scatter of pieces of them: what is the same "
-            f"through a run, such as temperature, is not in them. Repeat the runs.",
+            {
+                "said": f"{runs} runs are too few, so the uncertainties count on the scatter of pieces of them: what is the same "
+                f"through a run, such as temperature, is not in them. Repeat the runs."
+            },
         )
     return Check(
         "uncertainty by run",
         False,
-        "The uncertainties take every sample as independent, which neighbours in a log are not: they are too small. "
-        "Record more runs, or longer ones.",
+        {
+            "said": "The uncertainties take every sample as independent, which neighbours in a log are not: they are too small. "
+            "Record more runs, or longer ones."
+        },
     )
 
 
@@ -125,13 +131,15 @@ def _predicted(identified: Sequence[RunScore], unseen: Sequence[RunScore], unit:
     inside, outside = _rmse(identified), _rmse(unseen)
     if not any(score.samples for score in unseen):
         sentence = "No sample of the held-out runs can be used: they are too slow. Hold out runs that move."
-        return Check("held-out runs predicted", False, sentence)
+        return Check("held-out runs predicted", False, {"said": sentence})
     good = outside <= HELD_OUT * inside
     return Check(
         "held-out runs predicted",
         good,
-        f"{len(unseen)} held-out runs are predicted to {outside:.3g} {unit} (RMSE), those identified from to "
-        f"{inside:.3g} {unit}{'' if good else ': the drive or its load was another'}.",
+        {
+            "said": f"{len(unseen)} held-out runs are predicted to {outside:.3g} {unit} (RMSE), those identified from to "
+            f"{inside:.3g} {unit}{'' if good else ': the drive or its load was another'}."
+        },
     )
 
 
@@ -143,14 +151,18 @@ def _adequate(found: AxisDrive) -> Check:
         return Check(
             "model adequate",
             True,
-            f"The plain model predicts left-out runs to {plain.left_out.rmse:.4g} {found.effort_unit}; no richer one does "
-            f"so surely better and by a gain worth having (the best, {least.name}, to {least.left_out.rmse:.4g}).",
+            {
+                "said": f"The plain model predicts left-out runs to {plain.left_out.rmse:.4g} {found.effort_unit}; no richer one does "
+                f"so surely better and by a gain worth having (the best, {least.name}, to {least.left_out.rmse:.4g})."
+            },
         )
     return Check(
         "model adequate",
         False,
-        f"The runs support {best.name}: it predicts left-out runs to {best.left_out.rmse:.4g} {found.effort_unit}, the "
-        f"plain model to {plain.left_out.rmse:.4g} ({100 * best.gain:.1f} % less).",
+        {
+            "said": f"The runs support {best.name}: it predicts left-out runs to {best.left_out.rmse:.4g} {found.effort_unit}, the "
+            f"plain model to {plain.left_out.rmse:.4g} ({100 * best.gain:.1f} % less)."
+        },
     )
 
 
@@ -167,8 +179,10 @@ def _shift(found: AxisDrive) -> list[Check]:
         Check(
             "time shift told from averaging",
             good,
-            f"A shift of {late:.3g} ms predicts left-out runs to {shift.left_out.rmse:.4g} {found.effort_unit}, an average "
-            f"of neighbouring samples without a shift to {averaged.left_out.rmse:.4g}: {verdict}.",
+            {
+                "said": f"A shift of {late:.3g} ms predicts left-out runs to {shift.left_out.rmse:.4g} {found.effort_unit}, an average "
+                f"of neighbouring samples without a shift to {averaged.left_out.rmse:.4g}: {verdict}."
+            },
         )
     ]
 
@@ -185,12 +199,16 @@ def _unstructured(left: Structure, unit: str) -> Check:
     if max(left.slow, left.fast) > UNEVEN * min(left.slow, left.fast):
         parts.append("they are far greater at one speed than at another")
     if not parts:
-        return Check("residuals without structure", True, f"The residuals look like noise; RMS {left.rms:.3g} {unit}.")
+        return Check(
+            "residuals without structure", True, {"said": f"The residuals look like noise; RMS {left.rms:.3g} {unit}."}
+        )
     return Check(
         "residuals without structure",
         False,
-        f"{sentence_case(', and '.join(parts))[:-1]}; RMS {left.rms:.3g} {unit}, {left.slow:.3g} in the slower half and "
-        f"{left.fast:.3g} in the faster. The model leaves out something: a load, a position, a law of friction, a shift.",
+        {
+            "said": f"{sentence_case(', and '.join(parts))[:-1]}; RMS {left.rms:.3g} {unit}, {left.slow:.3g} in the slower half and "
+            f"{left.fast:.3g} in the faster. The model leaves out something: a load, a position, a law of friction, a shift."
+        },
     )
 
 
@@ -200,7 +218,7 @@ def _signs(left: Structure) -> Check:
     return Check(
         "direction known",
         good,
-        f"{100 * left.flips:.2g} % of the samples have another direction than both their neighbours.{advice}",
+        {"said": f"{100 * left.flips:.2g} % of the samples have another direction than both their neighbours.{advice}"},
     )
 
 
@@ -218,8 +236,10 @@ def _sampled(records: Sequence[DriveRecord]) -> Check:
     return Check(
         "sampled fast enough",
         good,
-        f"At {step * 1000:.3g} ms a sample, the acceleration explains {max(100 * seen, 0.0):.0f} % of the change of the "
-        f"velocity from sample to sample{advice}.",
+        {
+            "said": f"At {step * 1000:.3g} ms a sample, the acceleration explains {max(100 * seen, 0.0):.0f} % of the change of the "
+            f"velocity from sample to sample{advice}."
+        },
     )
 
 
@@ -227,7 +247,7 @@ def _resolved(records: Sequence[DriveRecord], rms: float) -> Check:
     effort = np.concatenate([record.effort for record in records])
     count = digits(effort)
     if count is None:
-        return Check("resolved", True, "The effort is written with enough digits.")
+        return Check("resolved", True, {"said": "The effort is written with enough digits."})
     largest = float(np.quantile(np.abs(effort), 0.95))
     half = 0.5 * 10.0 ** (np.floor(np.log10(largest)) + 1 - count) if largest > 0 else 0.0
     unit = records[0].effort_unit
@@ -235,8 +255,10 @@ def _resolved(records: Sequence[DriveRecord], rms: float) -> Check:
     return Check(
         "resolved",
         bool(good),
-        f"The effort is written with {count} significant digits, which rounds it by up to {half:.2g} {unit}: "
-        f"{'little' if good else 'much'} against the RMS residual of {rms:.3g} {unit}.",
+        {
+            "said": f"The effort is written with {count} significant digits, which rounds it by up to {half:.2g} {unit}: "
+            f"{'little' if good else 'much'} against the RMS residual of {rms:.3g} {unit}."
+        },
     )
 
 

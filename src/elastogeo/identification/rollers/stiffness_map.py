@@ -164,7 +164,7 @@ def _stiffness(budget: Budget, force: float | None, volumetric: Identification) 
     if missing or mixed:
         raise UnsupportedError(
             f"compliance and path are not told apart in {len({*missing, *mixed})} of {len(names)} directions: "
-            f"{volumetric.verdict[0].sentence} It takes two engagements all around the ball"
+            f"it takes two engagements all around the ball"
         )
     at = [budget.labels.index(name) for name in names]
     return Stiffness(
@@ -218,8 +218,8 @@ def _against_dynamometer(test: MachineTest, setup: BallRoller) -> tuple[ForceAgr
     try:
         agreement = _compared(pairs)
     except UnsupportedError as error:
-        return None, Check(name, False, f"This could not be judged: {error}.")
-    return agreement, Check(name, agreement.agrees, agreement.sentence)
+        return None, Check(name, False, {"said": f"This could not be judged: {error}."})
+    return agreement, Check(name, agreement.agrees, {"said": agreement.sentence})
 
 
 def _compared(pairs: Sequence[tuple[ForceRecord, ForceRecord]]) -> ForceAgreement:
@@ -272,8 +272,10 @@ def _rig_verdict(rig: RigCheck | None) -> Check | None:
     return Check(
         "compliance with the rig as predicted",
         share >= rig.coverage - 0.1,
-        f"Measured and predicted compliance agree within their uncertainty in {share:.0%} of {len(NODES)} directions; "
-        f"at worst, at {NODES[worst]} degrees, the normalised error is {rig.normalised_error[worst]:.2f}.",
+        {
+            "said": f"Measured and predicted compliance agree within their uncertainty in {share:.0%} of {len(NODES)} directions; "
+            f"at worst, at {NODES[worst]} degrees, the normalised error is {rig.normalised_error[worst]:.2f}."
+        },
     )
 
 

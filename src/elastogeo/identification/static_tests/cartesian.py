@@ -217,8 +217,8 @@ class CartesianCompliance:
     def checks(self) -> tuple[Check, ...]:
         """What is to be believed: all determined, symmetric within the uncertainty, and no force gaining energy."""
         if self.undetermined:
-            return (Check("compliance determined", False, f"{self._undetermined()}"),)
-        said = [Check("compliance determined", True, "All nine elements are determined.")]
+            return (Check("compliance determined", False, {"said": f"{self._undetermined()}"}),)
+        said = [Check("compliance determined", True, {"said": "All nine elements are determined."})]
         found = self.symmetry()
         symmetric = found.probability >= SIGNIFICANT
         worst = float(np.abs(found.differences).max()) * 1000
@@ -226,9 +226,11 @@ class CartesianCompliance:
             Check(
                 "reciprocity",
                 symmetric,
-                f"C_ij and C_ji differ by {worst:.3g} um/N at most, chi-squared {found.chi_squared:.3g} of three "
-                f"(p = {found.probability:.2g})"
-                + ("." if symmetric else ": look at the directions of the probes and of the force."),
+                {
+                    "said": f"C_ij and C_ji differ by {worst:.3g} um/N at most, chi-squared {found.chi_squared:.3g} of three "
+                    f"(p = {found.probability:.2g})"
+                    + ("." if symmetric else ": look at the directions of the probes and of the force.")
+                },
             )
         )
         stiffest = self.principal()[-1].compliance
@@ -237,8 +239,10 @@ class CartesianCompliance:
             Check(
                 "no energy gained",
                 positive,
-                f"The least principal compliance is {stiffest.value * 1000:.3g} um/N"
-                + ("." if positive else ": a force would gain energy; look at the signs of the probes."),
+                {
+                    "said": f"The least principal compliance is {stiffest.value * 1000:.3g} um/N"
+                    + ("." if positive else ": a force would gain energy; look at the signs of the probes.")
+                },
             )
         )
         return tuple(said)

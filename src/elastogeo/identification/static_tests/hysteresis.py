@@ -218,25 +218,31 @@ def _checks(static: Estimate, average: Estimate, cycles: int) -> tuple[Check, ..
         Check(
             "displacement with the force",
             with_force,
-            f"The static compliance is {static.value * um:.4g} um/N."
-            if with_force
-            else f"The displacement goes against the force ({static.value * um:.4g} um/N): turn the sensor's sign, unless "
-            f"the sensor reads across the force.",
+            {
+                "said": f"The static compliance is {static.value * um:.4g} um/N."
+                if with_force
+                else f"The displacement goes against the force ({static.value * um:.4g} um/N): turn the sensor's sign, unless "
+                f"the sensor reads across the force."
+            },
         ),
         Check(
             "energy is lost, not gained",
             loses,
-            f"The mean hysteresis is {average.value * um:.3g} um."
-            if loses
-            else f"The loop runs the wrong way round ({average.value * um:.3g} um): the force and the displacement may be "
-            f"shifted in time against each other, or one of the signs is wrong.",
+            {
+                "said": f"The mean hysteresis is {average.value * um:.3g} um."
+                if loses
+                else f"The loop runs the wrong way round ({average.value * um:.3g} um): the force and the displacement may be "
+                f"shifted in time against each other, or one of the signs is wrong."
+            },
         ),
         Check(
             "uncertainty by cycle",
             cycles > 1,
-            f"The uncertainties come from the scatter of {cycles} cycles."
-            if cycles > 1
-            else "There is one cycle: the uncertainties count on independent readings and do not say how a second cycle "
-            "would differ; load it three times at least.",
+            {
+                "said": f"The uncertainties come from the scatter of {cycles} cycles."
+                if cycles > 1
+                else "There is one cycle: the uncertainties count on independent readings and do not say how a second cycle "
+                "would differ; load it three times at least."
+            },
         ),
     )

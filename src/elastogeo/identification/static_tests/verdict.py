@@ -53,7 +53,7 @@ def loading_checks(places: Sequence[LoadedPlace]) -> tuple[Check, ...]:
             name = place.drive.axis
             checks += [replace(check, name=f"drive of {name}: {check.name}") for check in place.drive.verdict]
         elif place.drive_refusal:
-            checks.append(Check("drive told apart", False, _sentence(place.drive_refusal)))
+            checks.append(Check("drive told apart", False, {"said": _sentence(place.drive_refusal)}))
     return tuple(checks)
 
 
@@ -61,23 +61,27 @@ def probe_checks(found: Cartesian) -> tuple[Check, ...]:
     """Of displacement probes: determined, symmetric, no energy gained."""
     if found.symmetry is None:
         reason = found.refusal or "the symmetry of the compliance cannot be judged"
-        return (Check("compliance determined", not found.compliance.undetermined, _sentence(reason)),)
+        return (Check("compliance determined", not found.compliance.undetermined, {"said": _sentence(reason)}),)
     checks = found.compliance.checks()
     zeros = Check(
         "zeros of the probes",
         True,
-        "The probes count as zeroed without load, because no zero was asked for; else ask for E_Xw0, E_Yw0, E_Zw0."
-        if found.zeroed
-        else "The zero of each probe is estimated with the compliance.",
+        {
+            "said": "The probes count as zeroed without load, because no zero was asked for; else ask for E_Xw0, E_Yw0, E_Zw0."
+            if found.zeroed
+            else "The zero of each probe is estimated with the compliance."
+        },
     )
     by_run = found.compliance.by_run
     counted = Check(
         "Cartesian uncertainty by run",
         by_run,
-        "The uncertainties of the Cartesian compliance come from the scatter of the runs."
-        if by_run
-        else "The uncertainties of the Cartesian compliance count on independent readings, because the runs are too few; "
-        "readings along a turn rarely are: repeat the runs.",
+        {
+            "said": "The uncertainties of the Cartesian compliance come from the scatter of the runs."
+            if by_run
+            else "The uncertainties of the Cartesian compliance count on independent readings, because the runs are too few; "
+            "readings along a turn rarely are: repeat the runs."
+        },
     )
     return (*(replace(check, decisive=check.name == "no energy gained") for check in checks), zeros, counted)
 
@@ -85,8 +89,8 @@ def probe_checks(found: Cartesian) -> tuple[Check, ...]:
 def twist_checks(runs: Sequence[TwistRun], refusal: str) -> tuple[Check, ...]:
     """Of a sensor frame: whether it sees the twist, and whether its sensors agree."""
     if not runs:
-        return (Check("twist determined", False, _sentence(refusal)),)
-    seen = Check("twist determined", True, "The sensors determine all six components of the twist.")
+        return (Check("twist determined", False, {"said": _sentence(refusal)}),)
+    seen = Check("twist determined", True, {"said": "The sensors determine all six components of the twist."})
     suspects = {run.run: run.twist.suspect for run in runs if run.twist.suspect is not None}
     unchecked = [str(k + 1) for k, share in enumerate(runs[0].twist.redundancy) if np.isnan(runs[0].twist.outlying[k])]
     if suspects:
@@ -94,12 +98,16 @@ def twist_checks(runs: Sequence[TwistRun], refusal: str) -> tuple[Check, ...]:
         return seen, Check(
             "sensors agree",
             False,
-            f"By more than the scatter of the others stands out: {said}. Look at how it touches, and at its cable; leave it "
-            f"out if it stays so.",
+            {
+                "said": f"By more than the scatter of the others stands out: {said}. Look at how it touches, and at its cable; leave it "
+                f"out if it stays so."
+            },
         )
     if unchecked:
-        return seen, Check("sensors agree", False, f"Nothing checks sensor {', '.join(unchecked)}; add sensors.")
-    return seen, Check("sensors agree", True, f"No sensor stands out of the {len(runs[0].twist.redundancy)}, in any run.")
+        return seen, Check("sensors agree", False, {"said": f"Nothing checks sensor {', '.join(unchecked)}; add sensors."})
+    return seen, Check(
+        "sensors agree", True, {"said": f"No sensor stands out of the {len(runs[0].twist.redundancy)}, in any run."}
+    )
 
 
 def influence_checks(influences: Sequence[KnownInfluence]) -> tuple[Check, ...]:
@@ -111,8 +119,10 @@ def influence_checks(influences: Sequence[KnownInfluence]) -> tuple[Check, ...]:
         Check(
             "systematic influences",
             False,
-            f"The uncertainties of the joints hold those of {named}; those of the instrument's own results (loops, line, "
-            f"matrix, twist) do not: they are of repeatability alone.",
+            {
+                "said": f"The uncertainties of the joints hold those of {named}; those of the instrument's own results (loops, line, "
+                f"matrix, twist) do not: they are of repeatability alone."
+            },
         ),
     )
 
@@ -121,11 +131,13 @@ def _cycles(loaded: Sequence[LoadedRun]) -> Check:
     without = [run for run in loaded if run.hysteresis is None]
     cycles = sum(len(run.hysteresis.cycles) for run in loaded if run.hysteresis is not None)
     if not without:
-        return Check("loading cycles", True, f"{cycles} cycles of loading and unloading in {len(loaded)} runs.")
+        return Check("loading cycles", True, {"said": f"{cycles} cycles of loading and unloading in {len(loaded)} runs."})
     return Check(
         "loading cycles",
         False,
-        f"{len(without)} of {len(loaded)} runs say nothing of hysteresis. Run {without[0].run}: {without[0].refusal}.",
+        {
+            "said": f"{len(without)} of {len(loaded)} runs say nothing of hysteresis. Run {without[0].run}: {without[0].refusal}."
+        },
     )
 
 
@@ -138,21 +150,25 @@ def _signed(
     bad = [(run, value) for run, value in values if value.interval(coverage)[1] < 0]
     if bad:
         said = ", ".join(f"{value.value * UM:.4g} in run {run}" for run, value in bad)
-        return Check(name, False, f"{what[0].upper()}{what[1:]}: {said}; {wrong}.", decisive=True)
+        return Check(name, False, {"said": f"{what[0].upper()}{what[1:]}: {said}; {wrong}."}, decisive=True)
     sizes = [value.value * UM for _, value in values]
     extent = f"{min(sizes):.4g} to {max(sizes):.4g}" if len(sizes) > 1 else f"{sizes[0]:.4g}"
-    return Check(name, True, f"{what[0].upper()}{what[1:]}: {extent}.", decisive=True)
+    return Check(name, True, {"said": f"{what[0].upper()}{what[1:]}: {extent}."}, decisive=True)
 
 
 def _by_cycle(runs: Sequence[LoadedRun]) -> Check:
     single = [run.run for run in runs if run.hysteresis is not None and not run.hysteresis.by_cycle]
     if not single:
-        return Check("uncertainty by cycle", True, "The uncertainties of each run come from the scatter of its cycles.")
+        return Check(
+            "uncertainty by cycle", True, {"said": "The uncertainties of each run come from the scatter of its cycles."}
+        )
     return Check(
         "uncertainty by cycle",
         False,
-        f"One cycle only in run {', '.join(single)}: the uncertainties count on independent readings and do not say how a "
-        f"second cycle would differ; load it three times at least.",
+        {
+            "said": f"One cycle only in run {', '.join(single)}: the uncertainties count on independent readings and do not say how a "
+            f"second cycle would differ; load it three times at least."
+        },
     )
 
 
@@ -173,10 +189,12 @@ def _straight(place: LoadedPlace) -> Check | None:
     return Check(
         "straight line enough",
         straight,
-        f"{said}."
-        if straight
-        else f"{said}: hysteresis, curvature, or zeros that differ from run to run are more than scatter; take the line's "
-        f"compliance as a mean over the range.",
+        {
+            "said": f"{said}."
+            if straight
+            else f"{said}: hysteresis, curvature, or zeros that differ from run to run are more than scatter; take the line's "
+            f"compliance as a mean over the range."
+        },
     )
 
 

@@ -20,6 +20,7 @@ import numpy as np
 from elastogeo import __version__
 from elastogeo.identification import Check
 from elastogeo.observe import MachineTest, instruments
+from elastogeo.report.sentences import sentence_of
 
 UM = 1000.0
 """Micrometres in a millimetre."""
@@ -47,7 +48,7 @@ def tested(test: MachineTest, reference_force: float | None) -> dict[str, Any]:
 
 def verdict_entries(checks: Iterable[Check]) -> list[dict[str, Any]]:
     """Named checks."""
-    return [{"name": c.name, "passed": c.passed, "sentence": c.sentence, "decisive": c.decisive} for c in checks]
+    return [{"name": c.name, "passed": c.passed, "sentence": sentence_of(c), "decisive": c.decisive} for c in checks]
 
 
 def instrument_name(test: MachineTest) -> str:

@@ -1,0 +1,1 @@
+"""The report of an identification: its sentences, figures and tables."""
