@@ -8,6 +8,7 @@ from html.parser import HTMLParser
 
 import pytest
 
+from elastogeo.identification import Check
 from elastogeo.report import html_report, parameter_rows, save_html, sentence_of
 from elastogeo.report.numbers import micro, pretty
 

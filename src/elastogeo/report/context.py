@@ -8,7 +8,7 @@ from typing import Any
 
 from elastogeo import __version__
 from elastogeo.estimate import Repeatability
-from elastogeo.identification import CONDITION_LIMIT, Circularity, Comparison, Consistency, Diagnosis, Identification
+from elastogeo.identification import CONDITION_LIMIT, Check, Circularity, Comparison, Consistency, Diagnosis, Identification
 from elastogeo.observe import BallRoller, LoadedBallBar
 from elastogeo.report.as_json.envelope import instrument_name
 from elastogeo.report.budgets import budget_tables, degrees, uncertainty_table
@@ -106,6 +106,10 @@ def facts(result: Identification) -> list[tuple[str, str]]:
         lines.append(("Force", f"{forces} N over the reference of {result.reference_force:g} N, which is taken off"))
     resolution = "not given" if test.resolution is None else f"{in_micrometres(test.resolution)} µm"
     return [*lines, ("Resolution", resolution), ("Asked for", ", ".join(test.question.parameters))]
+
+
+def _said(check: Check) -> Context:
+    return {"name": check.name, "passed": check.passed is not False, "sentence": pretty(micro(sentence_of(check)))}
 
 
 def _headline(failed: int, count: int) -> str:
