@@ -30,6 +30,7 @@ from elastogeo.formats.recording_files import (
 )
 from elastogeo.formats.run_files import RunFormat, read_run, run_formats
 from elastogeo.formats.text.table import Table
+from elastogeo.formats.text.whole_files import write_whole
 
 __all__ = [
     "SCHEMA",
@@ -74,4 +75,5 @@ __all__ = [
     "standing_gaps",
     "write_new_test",
     "write_runs",
+    "write_whole",
 ]
