@@ -1,8 +1,119 @@
 """elastogeo: loaded-test metrology of machine tools.
 
 Where is this machine soft, where is it crooked, how sure are we, and what could this test not tell?
-The rooms, from the ground up: `errors`, `estimate`, `machine`, `observe`, `sources`, `formats`, `identify`, `report`,
-`cli`. Imports only go down. This file imports nothing, so that `elastogeo --help` answers at once.
+
+    import elastogeo as eg
+
+    result = eg.identify(eg.read_test("my-test"))
+    print(result)
+    print(result["C_XXX"])
+    result.report("my-report")
+
+This is the public face: what is listed here is what tutorials use, and nothing else is promised. A name is imported when it
+is used first, so that `import elastogeo` costs nothing. The rooms behind it, from the ground up: `estimate`, `machine`,
+`drive`, `observe`, `sources`, `formats`, `identification`, `report`, `recording`, `cli`; imports only go down.
 """
 
-__version__ = "0.1.0"
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from elastogeo import version
+
+if TYPE_CHECKING:
+    from elastogeo.errors import ElastogeoError, InputError, UnsupportedError
+    from elastogeo.estimate import Estimate
+    from elastogeo.formats import (
+        example_test,
+        inspect_file,
+        machines,
+        new_test,
+        read_drives,
+        read_log,
+        read_machine,
+        read_test,
+        simulate,
+    )
+    from elastogeo.identification import (
+        compare,
+        diagnose,
+        evaluate_static,
+        explain,
+        identify,
+        identify_drives,
+        map_stiffness,
+        what_if,
+    )
+    from elastogeo.machine import Machine
+    from elastogeo.observe import MachineTest
+    from elastogeo.result import Result
+
+__version__ = version.VERSION
+
+_HOME = {
+    "ElastogeoError": "errors",
+    "Estimate": "estimate",
+    "InputError": "errors",
+    "Machine": "machine",
+    "MachineTest": "observe",
+    "Result": "result",
+    "UnsupportedError": "errors",
+    "compare": "identification",
+    "diagnose": "identification",
+    "evaluate_static": "identification",
+    "example_test": "formats",
+    "explain": "identification",
+    "identify": "identification",
+    "identify_drives": "identification",
+    "inspect_file": "formats",
+    "machines": "formats",
+    "map_stiffness": "identification",
+    "new_test": "formats",
+    "read_drives": "formats",
+    "read_log": "formats",
+    "read_machine": "formats",
+    "read_test": "formats",
+    "simulate": "formats",
+    "what_if": "identification",
+}
+"""The room of each name of the face."""
+
+__all__ = [
+    "ElastogeoError",
+    "Estimate",
+    "InputError",
+    "Machine",
+    "MachineTest",
+    "Result",
+    "UnsupportedError",
+    "__version__",
+    "compare",
+    "diagnose",
+    "evaluate_static",
+    "example_test",
+    "explain",
+    "identify",
+    "identify_drives",
+    "inspect_file",
+    "machines",
+    "map_stiffness",
+    "new_test",
+    "read_drives",
+    "read_log",
+    "read_machine",
+    "read_test",
+    "simulate",
+    "what_if",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a name of the face from its room, once (PEP 562)."""
+    if name not in _HOME:
+        raise AttributeError(f"elastogeo has no {name!r}; it has {', '.join(__all__)}")
+    found = globals()[name] = getattr(import_module(f"elastogeo.{_HOME[name]}"), name)
+    return found
+
+
+def __dir__() -> list[str]:
+    """The names of the face, for completion."""
+    return sorted(__all__)

@@ -1,6 +1,5 @@
 """A test on disk: simulated, written, read back, identified; and what is refused."""
 
-import hashlib
 import shutil
 import subprocess
 import sys
@@ -12,10 +11,10 @@ from elastogeo.errors import FormatError, InputError
 from elastogeo.formats import (
     example_test,
     full_turn,
+    new_test,
     poses_of,
     read_simulation,
     read_test,
-    write_new_test,
     write_runs,
 )
 from elastogeo.formats.documents.machine_tests import read_test_document
@@ -24,7 +23,7 @@ from elastogeo.sources import simulate
 
 @pytest.fixture
 def folder(tmp_path):
-    write_new_test(tmp_path / "t", "hermle_c50", (36.0, 742.0), 2)
+    new_test(tmp_path / "t", "hermle_c50", (36.0, 742.0), 2)
     return tmp_path / "t"
 
 
@@ -55,23 +54,6 @@ def test_parquet_runs_are_read_like_csv_runs(folder):
         np.testing.assert_array_equal(one.columns["radial"], two.columns["radial"])
 
 
-def test_simulated_runs_carry_their_mark_and_every_run_its_hash(folder):
-    """The mark stands in the files: it is there for a test that does not say that its runs are simulated."""
-    test, truth = simulated(folder)
-    written = write_runs(folder, test, truth.seed)
-    assert 'simulated = "' not in (folder / "test.toml").read_text().replace("# simulated", "")
-    back = read_test(folder)
-    assert back.simulated == "elastogeo, seed 1"
-    assert [run.simulated for run in back.runs] == ["elastogeo, seed 1"] * 4
-    assert [run.file for run in back.runs] == [f"runs/{run.name}.csv" for run in back.runs]
-    assert [run.sha256 for run in back.runs] == [hashlib.sha256(path.read_bytes()).hexdigest() for path in written]
-    measured = written[0].read_text().splitlines(keepends=True)
-    written[0].write_text("".join(line for line in measured if "simulated" not in line))
-    mixed = read_test(folder)
-    assert mixed.runs[0].simulated == ""
-    assert mixed.simulated == "elastogeo, seed 1"
-
-
 def test_a_recorded_run_is_never_overwritten(folder):
     (folder / "runs").mkdir()
     (folder / "runs" / "742N-1.csv").write_text("mine")
@@ -91,7 +73,7 @@ def test_an_ending_that_no_format_writes_is_refused(folder):
 
 def test_a_new_test_never_touches_a_folder_that_is_there(folder):
     with pytest.raises(FormatError, match="is there already; choose another name"):
-        write_new_test(folder, "hermle_c50", (36.0,), 1)
+        new_test(folder, "hermle_c50", (36.0,), 1)
 
 
 def test_two_runs_of_one_name_are_refused(folder):
@@ -150,7 +132,7 @@ def with_logs(folder, text=LOG, more="", runs=""):
     (folder / "runs").mkdir()
     names = ("36N-1", "36N-2", "742N-1", "742N-2")
     for name in names:
-        (folder / "runs" / f"{name}.csv").write_text(text.replace(",run\n", f",{name}\n"))
+        (folder / "runs" / f"{name}.csv").write_text(text)
     document = (folder / "test.toml").read_text().replace('sense = "ccw"', f'sense = "ccw"\n{runs}')
     (folder / "test.toml").write_text(document + more)
     return folder

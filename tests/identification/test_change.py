@@ -17,7 +17,7 @@ from elastogeo.identification import (
     RunSystem,
     Systems,
     adjacent,
-    compare_tests,
+    compare,
     difference,
     identify,
     local_change,
@@ -324,7 +324,7 @@ def before_after(make_test: MakeTest, thesis_forces: tuple[float, ...]) -> Calla
 
 def test_compare_tests_says_what_changed(before_after: Callable[..., tuple[MachineTest, MachineTest]]) -> None:
     one, other = before_after(1, C_XXX=1e-5, E_YY1=4e-5)
-    found = compare_tests(identify(one), identify(other))
+    found = compare(identify(one), identify(other))
     (check,) = found.verdict
     assert not check.passed
     assert {d.name for d in found.differences[:2]} == {"C_XXX", "E_YY1"}
@@ -345,7 +345,7 @@ def test_compare_tests_stays_calm(before_after: Callable[..., tuple[MachineTest,
     calm = 0
     draws = 30
     for seed in range(draws):
-        found = compare_tests(*map(identify, before_after(seed)))
+        found = compare(*map(identify, before_after(seed)))
         assert len(found.differences) == 13
         calm += found.verdict[0].passed
     assert draws - calm <= stats.binom.ppf(0.999, draws, 0.05)
@@ -353,7 +353,7 @@ def test_compare_tests_stays_calm(before_after: Callable[..., tuple[MachineTest,
 
 def test_a_test_does_not_differ_from_itself(before_after: Callable[..., tuple[MachineTest, MachineTest]]) -> None:
     result = identify(before_after(5)[0])
-    found = compare_tests(result, result)
+    found = compare(result, result)
     assert found.verdict[0].passed
     assert found.joint.p_value == 1.0
     assert_allclose([d.change for d in found.differences], 0.0)
@@ -365,7 +365,7 @@ def test_tests_of_different_machines_cannot_be_compared(make_test: MakeTest) -> 
         for topology in ("wFYXt", "wFXYt")
     ]
     with pytest.raises(UnsupportedError, match="the tests are of different machines, wFYXt and wFXYt"):
-        compare_tests(*results)
+        compare(*results)
 
 
 def test_tests_without_a_common_parameter_cannot_be_compared(make_test: MakeTest) -> None:
@@ -374,4 +374,4 @@ def test_tests_without_a_common_parameter_cannot_be_compared(make_test: MakeTest
         for asked in (["C_XXX", "C_YYY"], ["E_XX1"])
     ]
     with pytest.raises(UnsupportedError, match="the tests determine no parameter in common"):
-        compare_tests(*results)
+        compare(*results)

@@ -284,7 +284,7 @@ def test_influences_with_a_reference_level_are_refused(make_test: MakeTest) -> N
     noisy = simulate(blank, {"C_XXX": 6e-5}, Imperfection(noise=1e-4), exact=False)
     with pytest.raises(UnsupportedError, match=r"without a reference level; leave reference_force out"):
         identify(replace(noisy, influences=(influence("bar-length"),)))
-    asked = replace(with_question(noisy, reference_force=float("nan")), influences=(influence("bar-length"),))
+    asked = replace(with_question(noisy, reference="none"), influences=(influence("bar-length"),))
     assert identify(asked).budget.lines
 
 

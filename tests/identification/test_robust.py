@@ -68,7 +68,7 @@ def test_outliers_move_the_robust_estimate_less_and_the_verdict_counts_them(make
 
 def test_a_robust_estimate_with_a_reference_is_refused(make_test: MakeTest) -> None:
     with pytest.raises(UnsupportedError, match="robust estimate needs the model without a reference"):
-        identify(with_question(noisy(make_test), ["C_XXX", "C_YYY"], reference_force=36.0, robust=True))
+        identify(with_question(noisy(make_test), ["C_XXX", "C_YYY"], reference=36.0, robust=True))
 
 
 def test_levels_are_chosen_and_left_out(make_test: MakeTest) -> None:

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 from elastogeo.errors import InputError
 from elastogeo.formats import read_test
-from elastogeo.identification.static_tests.assessment import static_results
+from elastogeo.identification.static_tests.assessment import evaluate_static
 from elastogeo.identification.static_tests.result import StaticResults
 from elastogeo.machine import Array, Machine, loop_frames, parse_topology
 from elastogeo.observe import (
@@ -55,7 +55,7 @@ def failed(found: StaticResults, decisive: bool = False) -> set[str]:
 
 
 def test_a_loop_that_was_put_in_comes_out_with_its_energy() -> None:
-    (place,) = static_results(a_test([ramp("a", 1, loop=1e-3), ramp("b", 2, loop=1e-3)])).places
+    (place,) = evaluate_static(a_test([ramp("a", 1, loop=1e-3), ramp("b", 2, loop=1e-3)])).places
     for run in place.runs:
         assert run.hysteresis is not None
         assert run.hysteresis.mean_hysteresis.value == pytest.approx(2 / 3 * 1e-3, rel=0.03)
@@ -70,14 +70,14 @@ def test_a_loop_that_was_put_in_comes_out_with_its_energy() -> None:
 
 
 def test_a_loop_is_more_than_the_straight_line_allows_and_the_check_says_so() -> None:
-    assert "straight line enough" not in failed(static_results(a_test([ramp("a"), ramp("b", 2)])))
-    found = static_results(a_test([ramp("a", loop=1e-3), ramp("b", 2, loop=1e-3)]))
+    assert "straight line enough" not in failed(evaluate_static(a_test([ramp("a"), ramp("b", 2)])))
+    found = evaluate_static(a_test([ramp("a", loop=1e-3), ramp("b", 2, loop=1e-3)]))
     assert "straight line enough" in failed(found)
     assert not failed(found, decisive=True)
 
 
 def test_a_sensor_against_the_force_reads_the_same_compliance() -> None:
-    (place,) = static_results(a_test([ramp(sense=-1.0), ramp("b", 2, sense=-1.0)], sensor=(-1.0, 0.0, 0.0))).places
+    (place,) = evaluate_static(a_test([ramp(sense=-1.0), ramp("b", 2, sense=-1.0)], sensor=(-1.0, 0.0, 0.0))).places
     assert place.along
     assert place.line is not None
     assert place.line.compliance.value == pytest.approx(SOFT, rel=2e-3)
@@ -85,16 +85,16 @@ def test_a_sensor_against_the_force_reads_the_same_compliance() -> None:
 
 def test_a_wrong_sign_along_the_force_is_decisive_and_across_it_is_none() -> None:
     runs = [ramp(sense=-1.0), ramp("b", 2, sense=-1.0)]
-    found = static_results(a_test(runs))
+    found = evaluate_static(a_test(runs))
     assert "displacement with the force" in failed(found, decisive=True)
     assert any("in run r, -0.0" in said and "turn the sensor's sign" in said for said in map(sentence_of, found.verdict))
-    across = static_results(a_test(runs, sensor=(0.0, 1.0, 0.0), question=Question(("C_YXX", "E_R0"))))
+    across = evaluate_static(a_test(runs, sensor=(0.0, 1.0, 0.0), question=Question(("C_YXX", "E_R0"))))
     assert not across.places[0].along
     assert "displacement with the force" not in {check.name for check in across.verdict}
 
 
 def test_a_loop_that_gains_energy_is_decisive() -> None:
-    found = static_results(a_test([ramp(loop=-1e-3), ramp("b", 2)]))
+    found = evaluate_static(a_test([ramp(loop=-1e-3), ramp("b", 2)]))
     (check,) = [check for check in found.verdict if check.name == "energy is lost, not gained"]
     assert check.decisive
     assert not check.passed
@@ -109,7 +109,7 @@ def test_places_and_directions_have_lines_of_their_own() -> None:
         return replace(run, columns={**columns, **{k: v for k, v in run.columns.items() if k != "force"}})
 
     runs = [pushed("a", 0.0, 4e-5, 0), pushed("b", 100.0, 6e-5, 0), pushed("c", 0.0, 1e-6, 1), pushed("d", 0.0, 4e-5, 0)]
-    found = static_results(a_test(runs, direction=None, sensor=(1.0, 0.0, 0.0), question=Question(("C_XXX", "C_XYX"))))
+    found = evaluate_static(a_test(runs, direction=None, sensor=(1.0, 0.0, 0.0), question=Question(("C_XXX", "C_XYX"))))
     seen = {tuple(run.run for run in place.runs): place for place in found.places}
     assert set(seen) == {("a", "d"), ("b",), ("c",)}
     for names, soft in ((("a", "d"), 4e-5), (("b",), 6e-5), (("c",), 1e-6)):
@@ -126,14 +126,14 @@ def test_a_force_that_leaves_its_line_is_refused() -> None:
     columns = {"force_x": RAMP, "force_y": 0.2 * RAMP**2 / 400, "force_z": 0 * RAMP}
     run = replace(run, columns={**columns, "displacement": run.columns["displacement"]})
     with pytest.raises(InputError, match=r"run 'r': its force does not keep to a line, it departs by .* N of 408 N"):
-        static_results(a_test([run], direction=None, sensor=(1.0, 0.0, 0.0)))
+        evaluate_static(a_test([run], direction=None, sensor=(1.0, 0.0, 0.0)))
 
 
 def test_a_stated_influence_is_said_to_count_in_the_joints_only() -> None:
     plain = a_test([ramp(), ramp("b", 2)])
     stated = replace(plain, influences=(KnownInfluence("force-scale", "load cell", relative=0.01),))
-    assert "systematic influences" not in failed(static_results(plain))
-    found = static_results(stated)
+    assert "systematic influences" not in failed(evaluate_static(plain))
+    found = evaluate_static(stated)
     (check,) = [check for check in found.verdict if check.name == "systematic influences"]
     assert sentence_of(check).startswith(
         "The uncertainties of the joints hold those of load cell; those of the instrument's own"
@@ -145,7 +145,7 @@ def test_a_stated_influence_is_said_to_count_in_the_joints_only() -> None:
 
 def test_one_branch_only_leaves_the_line_and_says_why_there_is_no_loop() -> None:
     half = Run("half", {"force": UP, "displacement": SOFT * UP + 1e-5 * np.sin(7.0 * UP)})
-    found = static_results(a_test([half, ramp()]))
+    found = evaluate_static(a_test([half, ramp()]))
     runs = found.places[0].runs
     assert runs[0].hysteresis is None
     assert "only a rising branch covers its range of 400 N" in runs[0].refusal
@@ -176,7 +176,7 @@ def test_springs_of_the_drive_come_back(topology: str, sense: float) -> None:
         return ramp(name, seed, position_x=position, scale_x=200 + servo + screw)
 
     runs = [run(f"r{seed}", seed) for seed in range(4)]
-    found = static_results(a_test(runs, topology, direction=(sense, 0.0, 0.0)))
+    found = evaluate_static(a_test(runs, topology, direction=(sense, 0.0, 0.0)))
     drive = found.places[0].drive
     assert drive is not None
     assert drive.axis == "X"
@@ -188,7 +188,7 @@ def test_springs_of_the_drive_come_back(topology: str, sense: float) -> None:
 
 def test_a_loop_closed_on_the_scale_holds_the_transmission() -> None:
     runs = [ramp(f"r{k}", k, position_x=-2e-5 * RAMP, scale_x=1e-5 * RAMP, command_x=0 * RAMP) for k in range(4)]
-    drive = static_results(a_test(runs), feedback="scale").places[0].drive
+    drive = evaluate_static(a_test(runs), feedback="scale").places[0].drive
     assert drive is not None
     assert {part.name: part.acts for part in drive.parts} == {
         "servo": True,
@@ -196,20 +196,20 @@ def test_a_loop_closed_on_the_scale_holds_the_transmission() -> None:
         "transmission": False,
     }
     with pytest.raises(InputError, match="a position loop is closed on 'belt'; say motor or scale"):
-        static_results(a_test(runs), feedback="belt")
+        evaluate_static(a_test(runs), feedback="belt")
 
 
 def test_positions_that_will_not_do_are_refused_and_those_of_other_axes_left_alone() -> None:
-    assert static_results(a_test([ramp(position_y=1e-5 * RAMP)])).places[0].drive is None
-    assert static_results(a_test([ramp(command_x=0 * RAMP)])).places[0].drive is None
+    assert evaluate_static(a_test([ramp(position_y=1e-5 * RAMP)])).places[0].drive is None
+    assert evaluate_static(a_test([ramp(command_x=0 * RAMP)])).places[0].drive is None
     with pytest.raises(InputError, match="run 'r': position_x moves by 8 mm; a static test stands still"):
-        static_results(a_test([ramp(position_x=0.02 * RAMP)]))
+        evaluate_static(a_test([ramp(position_x=0.02 * RAMP)]))
     with pytest.raises(InputError, match="run 'b' lacks the column position_x that other runs of this place have"):
-        static_results(a_test([ramp(position_x=1e-5 * RAMP), ramp("b", scale_x=1e-5 * RAMP)]))
+        evaluate_static(a_test([ramp(position_x=1e-5 * RAMP), ramp("b", scale_x=1e-5 * RAMP)]))
 
 
 def test_weights_that_do_not_come_back_give_the_stiffness_of_the_rig() -> None:
-    found = static_results(read_test(EXAMPLES / "static-rig"))
+    found = evaluate_static(read_test(EXAMPLES / "static-rig"))
     (place,) = found.places
     assert place.line is not None
     low, high = place.line.stiffness().interval()
@@ -220,7 +220,7 @@ def test_weights_that_do_not_come_back_give_the_stiffness_of_the_rig() -> None:
 
 
 def test_probes_give_compliance_stiffness_and_directions() -> None:
-    found = static_results(read_test(EXAMPLES / "static-probes"))
+    found = evaluate_static(read_test(EXAMPLES / "static-probes"))
     cartesian = found.cartesian
     assert cartesian is not None
     assert not cartesian.zeroed
@@ -244,7 +244,7 @@ def test_probes_under_one_force_say_which_columns_are_not_determined() -> None:
     setup = DisplacementProbes(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), bar=(1.0, 0.0, 0.0))
     machine = Machine("m", parse_topology("wFYXt"))
     runs = (Run("r", {"angle": angle, **readings}, force=400.0),)
-    found = static_results(MachineTest("t", machine, setup, runs, Question(("C_XXX", "C_YXX"))))
+    found = evaluate_static(MachineTest("t", machine, setup, runs, Question(("C_XXX", "C_YXX"))))
     cartesian = found.cartesian
     assert cartesian is not None
     assert cartesian.zeroed
@@ -283,7 +283,7 @@ def frame_test(
 
 
 def test_a_frame_gives_the_twist_of_every_load_step() -> None:
-    found = static_results(frame_test())
+    found = evaluate_static(frame_test())
     run = found.twists[0]
     assert [step.force for step in run.steps] == [0.0, 300.0, 600.0]
     assert [step.readings for step in run.steps] == [5, 5, 5]
@@ -297,7 +297,7 @@ def test_a_frame_gives_the_twist_of_every_load_step() -> None:
 
 
 def test_a_sensor_that_lies_is_named_with_its_run() -> None:
-    found = static_results(frame_test(bad=2))
+    found = evaluate_static(frame_test(bad=2))
     assert [run.twist.suspect for run in found.twists] == [None, 2]
     (check,) = [check for check in found.verdict if check.name == "sensors agree"]
     assert not check.passed
@@ -305,35 +305,35 @@ def test_a_sensor_that_lies_is_named_with_its_run() -> None:
 
 
 def test_a_frame_that_cannot_see_the_twist_says_so_and_the_joints_stand() -> None:
-    found = static_results(frame_test(sensors=6))
+    found = evaluate_static(frame_test(sensors=6))
     assert found.twists == ()
     assert found.refusal == "six sensors leave no residual: give the resolution of the readings, or add a sensor"
     assert "twist determined" in failed(found)
     assert len(found.joints.parameters) == 3
-    blind = static_results(frame_test(blind=True))
+    blind = evaluate_static(frame_test(blind=True))
     assert blind.refusal.startswith("this frame of 8 sensors does not see Y, Z, A")
     assert len(blind.joints.parameters) == 3
 
 
 def test_six_sensors_count_on_the_resolution() -> None:
-    (run, _) = static_results(frame_test(sensors=6, resolution=1e-4)).twists
+    (run, _) = evaluate_static(frame_test(sensors=6, resolution=1e-4)).twists
     # a rectangular distribution of that width
     assert run.twist.standard_deviation == pytest.approx(1e-4 / np.sqrt(12))
-    found = static_results(frame_test(sensors=6, resolution=1e-4))
+    found = evaluate_static(frame_test(sensors=6, resolution=1e-4))
     assert any("Nothing checks sensor 1, 2, 3, 4, 5, 6" in sentence_of(check) for check in found.verdict)
 
 
 def test_another_instrument_is_sent_to_its_own_command(make_test) -> None:
     with pytest.raises(InputError, match=r"was made with a loaded-ball-bar; .* use: elastogeo identify"):
-        static_results(make_test("wFYXt"))
+        evaluate_static(make_test("wFYXt"))
     with pytest.raises(InputError, match=r"was made with a ball-roller; .* use: elastogeo brbd"):
-        static_results(read_test(EXAMPLES / "ball-roller"))
+        evaluate_static(read_test(EXAMPLES / "ball-roller"))
 
 
 def test_a_missing_column_and_micrometres_for_millimetres_are_refused() -> None:
     run = ramp()
     with pytest.raises(InputError, match="run 'r' lacks the column displacement; its columns are: force"):
-        static_results(a_test([replace(run, columns={"force": RAMP})]))
+        evaluate_static(a_test([replace(run, columns={"force": RAMP})]))
     wrong = {**run.columns, "displacement": 1000 * run.columns["displacement"]}
     with pytest.raises(InputError, match=r"displacement reaches 20.* mm; are they micrometres given as millimetres"):
-        static_results(a_test([replace(run, columns=wrong)]))
+        evaluate_static(a_test([replace(run, columns=wrong)]))

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 from elastogeo.drive import FeedDrive, KnownBalance, SetupCompliance
 from elastogeo.errors import InputError, UnsupportedError
-from elastogeo.identification import StiffnessMap, stiffness_map
+from elastogeo.identification import StiffnessMap, map_stiffness
 from elastogeo.machine import Joint, Machine, parse_topology
 from elastogeo.observe import BallRoller, Circle, Imperfection, LoadedBallBar, MachineTest, Question, Rig, Run
 from elastogeo.report import sentence_of
@@ -55,7 +55,7 @@ def true_compliance(angle: np.ndarray) -> np.ndarray:
 
 @pytest.fixture(scope="module")
 def found() -> StiffnessMap:
-    return stiffness_map(simulated(), simulated(seed=2, rig=(RIG,)))
+    return map_stiffness(simulated(), simulated(seed=2, rig=(RIG,)))
 
 
 def test_the_map_holds_the_true_compliance_in_every_direction(found: StiffnessMap) -> None:
@@ -100,7 +100,7 @@ def test_the_rig_is_seen_where_it_gives_way(found: StiffnessMap) -> None:
 def test_a_rig_of_another_compliance_does_not_agree() -> None:
     wrong = simulated(seed=2, rig=(RIG,))
     stated = replace(wrong, setup=replace(wrong.setup, rig=(replace(RIG, compliance=1.3 * RIG.compliance),)))
-    found = stiffness_map(simulated(), stated)
+    found = map_stiffness(simulated(), stated)
     assert found.rig is not None
     assert not found.rig.agrees[0]
     check = next(check for check in found.verdict if check.name == "compliance with the rig as predicted")
@@ -120,7 +120,7 @@ def test_a_dynamometer_is_compared_with_the_currents(gain: float, agrees: bool) 
         noise = 3.0 * random.standard_normal((2, len(angle)))
         gauge = {"force_x": force * np.cos(angle) + noise[0], "force_y": force * np.sin(angle) + noise[1]}
         measured.append(replace(run, columns={**run.columns, **gauge}))
-    found = stiffness_map(replace(test, runs=tuple(measured)))
+    found = map_stiffness(replace(test, runs=tuple(measured)))
     assert found.dynamometer is not None
     assert_allclose(found.dynamometer.gain, gain, rtol=0.01)
     assert found.dynamometer.gain_is_one == agrees
@@ -131,7 +131,7 @@ def test_a_dynamometer_is_compared_with_the_currents(gain: float, agrees: bool) 
 def test_a_dynamometer_that_measures_something_else_is_said() -> None:
     test, random = simulated(), np.random.default_rng(5)
     noise = tuple(replace(run, columns={**run.columns, "force_x": random.standard_normal(360)}) for run in test.runs)
-    found = stiffness_map(replace(test, runs=noise))
+    found = map_stiffness(replace(test, runs=noise))
     assert found.dynamometer is None
     check = next(check for check in found.verdict if check.name == "force agrees with the dynamometer")
     assert not check.passed
@@ -140,18 +140,18 @@ def test_a_dynamometer_that_measures_something_else_is_said() -> None:
 
 def test_one_level_does_not_tell_compliance_from_path() -> None:
     with pytest.raises(UnsupportedError, match=r"not told apart in 24 of 24 directions: .* two engagements all around"):
-        stiffness_map(simulated((0.0, 0.2)))
+        map_stiffness(simulated((0.0, 0.2)))
 
 
 def test_another_instrument_has_no_map() -> None:
     test = simulated()
     with pytest.raises(InputError, match="has no ball-roller set-up"):
-        stiffness_map(replace(test, setup=LoadedBallBar(Circle(150.0), 30.0)))
+        map_stiffness(replace(test, setup=LoadedBallBar(Circle(150.0), 30.0)))
 
 
 def test_a_rig_test_must_name_its_rig() -> None:
     with pytest.raises(InputError, match="needs a test without one, and one whose set-up names it"):
-        stiffness_map(simulated(), simulated())
+        map_stiffness(simulated(), simulated())
 
 
 def test_a_rig_gives_way_along_its_direction() -> None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from math import inf, isfinite, nan
+from math import inf, isfinite
 
 import numpy as np
 import pytest
 
 import elastogeo
-from elastogeo.identification import compare_tests, diagnose, what_if
+from elastogeo.identification import compare, diagnose, what_if
 from elastogeo.report import (
     comparison_json,
     confounding_json,
@@ -126,7 +126,7 @@ def test_repeats(rich, poor) -> None:
 
 
 def test_a_number_that_is_none_is_null(rich) -> None:
-    level = replace(rich.levels[0], fitness=nan)
+    level = replace(rich.levels[0], fitness=None)
     solution = replace(rich.repeats.solution, degrees_of_freedom=np.full(6, inf))
     document = identification_json(
         replace(rich, levels=(level,), repeats=replace(rich.repeats, solution=solution), rmse=np.float64(inf))
@@ -241,7 +241,7 @@ def test_diagnosis(separated, mixed) -> None:
 
 
 def test_comparison(separated) -> None:
-    compared = compare_tests(separated, separated)
+    compared = compare(separated, separated)
     document = comparison_json(compared)
     strict(document)
     assert document["schema"] == "elastogeo.comparison/1"

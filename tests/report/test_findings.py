@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from elastogeo.identification import compare_tests, diagnose, what_if
+from elastogeo.identification import compare, diagnose, what_if
 from elastogeo.report import comparison_rows, diagnosis_of, diagnosis_rows, parameter_rows, what_if_rows
 from elastogeo.report.text import UNTOLD
 
@@ -47,7 +47,11 @@ def test_a_diagnosis_needs_geometry(rich, geometric) -> None:
 def test_comparison_rows_say_what_changed(separated) -> None:
     first = separated.parameters[0]
     step = 40 * first.standard_uncertainty
-    moved = replace(first, value=first.value + step, interval=(first.interval[0] + step, first.interval[1] + step))
+    moved = replace(
+        first,
+        estimate=replace(first.estimate, value=first.value + step),
+        interval=(first.interval[0] + step, first.interval[1] + step),
+    )
     values = separated.solution.values.copy()
     values[0] += step
     after = replace(
@@ -55,7 +59,7 @@ def test_comparison_rows_say_what_changed(separated) -> None:
         parameters=(moved, *separated.parameters[1:]),
         solution=replace(separated.solution, values=values),
     )
-    rows = comparison_rows(compare_tests(separated, after))
+    rows = comparison_rows(compare(separated, after))
     assert [row.name for row in rows if row.changed == "yes"] == ["C_XXX"]
     assert rows[0].name == "C_XXX"
     assert rows[0].unit == "nm/N"

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from elastogeo.formats import read_test
-from elastogeo.identification.static_tests.assessment import static_results
+from elastogeo.identification.static_tests.assessment import evaluate_static
 from elastogeo.identification.static_tests.result import StaticResults
 from elastogeo.machine import Machine, parse_topology
 from elastogeo.observe import MachineTest, Question, Run, StaticForce
@@ -41,12 +41,12 @@ def pulled() -> StaticResults:
     columns = {"force": CYCLES, "displacement": moved, "position_x": 1e-5 * CYCLES, "scale_x": 3e-5 * CYCLES}
     setup = StaticForce((1.0, 0.0, 0.0))
     machine = Machine("m", parse_topology("wFYXt"))
-    return static_results(MachineTest("t", machine, setup, (Run("<a>", columns),), Question(("C_XXX", "E_R0"))))
+    return evaluate_static(MachineTest("t", machine, setup, (Run("<a>", columns),), Question(("C_XXX", "E_R0"))))
 
 
 @pytest.fixture(scope="module")
 def examples() -> dict[str, StaticResults]:
-    return {name: static_results(read_test(EXAMPLES / f"static-{name}")) for name in ("force", "rig", "probes", "frame")}
+    return {name: evaluate_static(read_test(EXAMPLES / f"static-{name}")) for name in ("force", "rig", "probes", "frame")}
 
 
 def titled(found: StaticResults, beginning: str) -> StaticTable:

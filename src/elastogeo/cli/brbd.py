@@ -30,14 +30,14 @@ def brbd(
     from elastogeo.cli import screen
     from elastogeo.cli.stiffness_screen import show_stiffness
     from elastogeo.formats import read_test
-    from elastogeo.identification import stiffness_map
+    from elastogeo.identification import map_stiffness
     from elastogeo.report import save_stiffness, stiffness_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
         asked = read_test(test)
         other = read_test(rig_test) if rig_test else None
         step("identifying")
-        found = stiffness_map(asked, other)
+        found = map_stiffness(asked, other)
         written = screen.write_report(found.joints, report, step) if report else None
         if report:
             save_stiffness(found, report)

@@ -7,14 +7,14 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, Parameters, Reference
+from elastogeo.cli.options import AsJson, Parameters, Reference, reference_level
 
 
 def compare(
     before: Annotated[Path, typer.Argument(metavar="BEFORE", help="The earlier test: a folder or a test file.")],
     after: Annotated[Path, typer.Argument(metavar="AFTER", help="The later test of the same machine.")],
     parameters: Parameters = None,
-    reference: Reference = None,
+    reference: Reference = "test",
     as_json: AsJson = False,
 ) -> None:
     """Say what changed between two tests of one machine, and whether it is significant.
@@ -25,13 +25,13 @@ def compare(
     """
     from elastogeo.cli import screen
     from elastogeo.formats import read_test
-    from elastogeo.identification import compare_tests, identify, with_question
+    from elastogeo.identification import compare, identify, with_question
     from elastogeo.report import comparison_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = [with_question(read_test(test), parameters, None, reference) for test in (before, after)]
+        asked = [with_question(read_test(test), parameters, None, reference_level(reference)) for test in (before, after)]
         step("identifying both tests")
-        compared = compare_tests(*(identify(test) for test in asked))
+        compared = compare(*(identify(test) for test in asked))
     if as_json:
         screen.show_json(comparison_json(compared))
     else:

@@ -6,14 +6,14 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, Parameters, Prefer, Reciprocal, Reference, TestPath
+from elastogeo.cli.options import AsJson, Parameters, Prefer, Reciprocal, Reference, TestPath, reference_level
 
 
 def confounding(
     test: TestPath,
     parameters: Parameters = None,
     prefer: Prefer = None,
-    reference: Reference = None,
+    reference: Reference = "test",
     reciprocal: Reciprocal = False,
     planned: Annotated[
         int, typer.Option(help="Readings of a full turn to assume for every run, instead of reading the run files.")
@@ -32,7 +32,7 @@ def confounding(
     from elastogeo.report import confounding_json
 
     planned_test = read_test(test, full_turn(planned)) if planned else read_test(test)
-    asked = with_question(planned_test, parameters, prefer, reference, reciprocal=reciprocal)
+    asked = with_question(planned_test, parameters, prefer, reference_level(reference), reciprocal=reciprocal)
     found = confounding_of(asked, systems_of(asked))
     if as_json:
         screen.show_json(confounding_json(found, asked))

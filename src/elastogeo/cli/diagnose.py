@@ -6,13 +6,13 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, Parameters, Reference, TestPath, refuse_if
+from elastogeo.cli.options import AsJson, Parameters, Reference, TestPath, reference_level, refuse_if
 
 
 def diagnose(
     test: TestPath,
     parameters: Parameters = None,
-    reference: Reference = None,
+    reference: Reference = "test",
     significant: Annotated[
         bool, typer.Option("--significant", help="Show only faults whose interval excludes zero.")
     ] = False,
@@ -34,7 +34,7 @@ def diagnose(
     from elastogeo.report import diagnosis_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = with_question(read_test(test), parameters, None, reference)
+        asked = with_question(read_test(test), parameters, None, reference_level(reference))
         step("identifying")
         result = identify(asked)
         diagnosis = diagnosed(result)

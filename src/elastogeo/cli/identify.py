@@ -17,6 +17,7 @@ from elastogeo.cli.options import (
     Robust,
     TestPath,
     WithoutLevels,
+    reference_level,
     refuse_if,
 )
 
@@ -25,7 +26,7 @@ def identify(
     test: TestPath,
     parameters: Parameters = None,
     prefer: Prefer = None,
-    reference: Reference = None,
+    reference: Reference = "test",
     level: Levels = None,
     without_level: WithoutLevels = None,
     reciprocal: Reciprocal = False,
@@ -46,7 +47,9 @@ def identify(
     from elastogeo.report import identification_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = with_question(read_test(test), parameters, prefer, reference, level, without_level, reciprocal, robust)
+        asked = with_question(
+            read_test(test), parameters, prefer, reference_level(reference), level, without_level, reciprocal, robust
+        )
         step("identifying")
         result = identified(asked)
         written = screen.write_report(result, report, step) if report else None

@@ -25,7 +25,7 @@ def new(
       elastogeo identify my-test
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import write_new_test
+    from elastogeo.formats import new_test
 
-    written = write_new_test(folder, machine, tuple(force or (36.0, 238.0, 490.0, 742.0)), repeats)
+    written = new_test(folder, machine, tuple(force or (36.0, 238.0, 490.0, 742.0)), repeats)
     screen.say(f"Made {written}. Put the run files where it says, or simulate them, then: elastogeo identify {folder}")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
+
+from elastogeo.errors import InputError
 
 if TYPE_CHECKING:
     from elastogeo.identification import Check
@@ -18,7 +20,7 @@ Parameters = Annotated[
     typer.Option("--parameter", "-p", help="Name, pattern (C_??X) or preset (planar-xy) to ask for; may be repeated."),
 ]
 Reference = Annotated[
-    float | None, typer.Option("--reference", help="Force level [N] to take off from all others; nan for none.")
+    str, typer.Option("--reference", help="Force level [N] to subtract from all others; test: as the test says; none.")
 ]
 Prefer = Annotated[
     list[str] | None,
@@ -31,6 +33,17 @@ WithoutLevels = Annotated[
 ]
 Reciprocal = Annotated[bool, typer.Option("--reciprocal", help="Take each joint as symmetric: C_dfj and C_fdj are one.")]
 Robust = Annotated[bool, typer.Option("--robust", help="Let outlying readings count less (Huber).")]
+
+
+def reference_level(given: str) -> float | Literal["test", "none"]:
+    """The reference level that an option names."""
+    words: dict[str, Literal["test", "none"]] = {"test": "test", "none": "none"}
+    if given in words:
+        return words[given]
+    try:
+        return float(given)
+    except ValueError:
+        raise InputError(f"--reference is {given!r}; give a force in N, none, or test (as the test says)") from None
 
 
 def refuse_if(verdict: Iterable[Check]) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from math import isnan
 from pathlib import Path
 from typing import Any
 
@@ -197,7 +196,7 @@ def show_parameters(result: Identification) -> None:
 def _levels(result: Identification) -> Table:
     table = empty_table(("force [N]", "readings", "RMSE [um]", "fit [%]"), left=())
     for level in result.levels:
-        fit = "–" if isnan(level.fitness) else f"{level.fitness:.1f}"
+        fit = "–" if level.fitness is None else f"{level.fitness:.1f}"
         table.add_row(f"{level.force:g}", str(level.readings), f"{level.rmse * 1000:.3f}", fit)
     return table
 

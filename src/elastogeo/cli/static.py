@@ -31,14 +31,14 @@ def static(
     from elastogeo.cli import screen
     from elastogeo.cli.static_screen import show_static
     from elastogeo.formats import read_test
-    from elastogeo.identification.static_tests import static_results
+    from elastogeo.identification.static_tests import evaluate_static
     from elastogeo.report import save_static
     from elastogeo.report.as_json import static_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
         asked = read_test(test)
         step("evaluating")
-        found = static_results(asked, feedback)
+        found = evaluate_static(asked, feedback)
         written = [screen.write_report(found.joints, report, step), *save_static(found, report)] if report else []
     if as_json:
         screen.show_json(static_json(found))

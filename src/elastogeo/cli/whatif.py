@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, Parameters, Reference, TestPath
+from elastogeo.cli.options import AsJson, Parameters, Reference, TestPath, reference_level
 
 
 def whatif(
@@ -15,7 +15,7 @@ def whatif(
         list[str], typer.Option("--correct", "-c", help="Parameter (or pattern) whose fault is corrected; may be repeated.")
     ],
     parameters: Parameters = None,
-    reference: Reference = None,
+    reference: Reference = "test",
     as_json: AsJson = False,
 ) -> None:
     """Predict the trace and its circular deviation with named faults corrected.
@@ -30,7 +30,7 @@ def whatif(
     from elastogeo.report import what_if_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = with_question(read_test(test), parameters, None, reference)
+        asked = with_question(read_test(test), parameters, None, reference_level(reference))
         step("identifying")
         result = identify(asked)
         predicted = what_if(result, correct)

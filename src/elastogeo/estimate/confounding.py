@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from elastogeo.equality import ByValue
 from elastogeo.errors import InputError, RankError
 from elastogeo.estimate.factor import Array, Factor
 
@@ -23,8 +24,8 @@ NULL_TOLERANCE = 1e-12
 """A column this much shorter than it would be if nothing cancelled counts as null: it is rounding error."""
 
 
-@dataclass(frozen=True, slots=True)
-class Confounding:
+@dataclass(frozen=True, slots=True, eq=False)
+class Confounding(ByValue):
     """What the observations can tell apart.
 
     Attributes

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 from scipy.special import stdtrit
 
+from elastogeo.equality import ByValue
 from elastogeo.errors import DegreesOfFreedomError, RankError
 from elastogeo.estimate.confounding import RANK_TOLERANCE
 from elastogeo.estimate.estimate import Estimate
@@ -36,8 +37,8 @@ class Noise:
     square: float
 
 
-@dataclass(frozen=True, slots=True)
-class Solution:
+@dataclass(frozen=True, slots=True, eq=False)
+class Solution(ByValue):
     """Estimated parameters.
 
     Attributes

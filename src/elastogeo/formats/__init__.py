@@ -5,10 +5,11 @@ Stands on `sources`, `observe`, `machine` and `errors`.
 
 from elastogeo.formats.channels import ChannelUse, Clock, OnOneClock, on_one_clock
 from elastogeo.formats.documents.feed_drives import read_drives
-from elastogeo.formats.documents.machine_tests import example_test, read_test
-from elastogeo.formats.documents.machines import find_machine, read_machine, shipped_machines
-from elastogeo.formats.documents.simulations import Simulation, full_turn, poses_of, read_simulation, write_runs
-from elastogeo.formats.documents.templates import write_new_test
+from elastogeo.formats.documents.machine_tests import example_test, full_turn, read_test
+from elastogeo.formats.documents.machines import find_machine, machines, read_machine, shipped_machines
+from elastogeo.formats.documents.simulated_tests import simulate
+from elastogeo.formats.documents.simulations import Simulation, poses_of, read_simulation, write_runs
+from elastogeo.formats.documents.templates import new_test
 from elastogeo.formats.inspection import Inspected, InspectedColumn, inspect_file
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, log_formats, read_log
@@ -30,7 +31,6 @@ from elastogeo.formats.recording_files import (
 )
 from elastogeo.formats.run_files import RunFormat, read_run, run_formats
 from elastogeo.formats.text.table import Table
-from elastogeo.formats.text.whole_files import write_whole
 
 __all__ = [
     "SCHEMA",
@@ -55,6 +55,8 @@ __all__ = [
     "full_turn",
     "inspect_file",
     "log_formats",
+    "machines",
+    "new_test",
     "on_one_clock",
     "part_files",
     "part_name",
@@ -72,8 +74,7 @@ __all__ = [
     "said_gap",
     "said_time",
     "shipped_machines",
+    "simulate",
     "standing_gaps",
-    "write_new_test",
     "write_runs",
-    "write_whole",
 ]

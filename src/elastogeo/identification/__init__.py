@@ -3,8 +3,9 @@
 from elastogeo.identification.budget import SCATTER, Agreement, Budget, BudgetLine, agreement, uncertainty_budget
 from elastogeo.identification.change import SIGNIFICANT, Change, difference, local_change, run_dispersion
 from elastogeo.identification.check import Check
+from elastogeo.identification.explanation import Explanation, explain
 from elastogeo.identification.faults.circularity import Circularity, circularity
-from elastogeo.identification.faults.comparison import BeforeAfter, Difference, compare_tests
+from elastogeo.identification.faults.comparison import BeforeAfter, Difference, compare
 from elastogeo.identification.faults.diagnosis import Diagnosis, Fault, diagnose
 from elastogeo.identification.faults.what_if import WhatIf, what_if
 from elastogeo.identification.feed_drives.axis_drives import AxisDrive, DriveIdentification, identify_drives
@@ -25,8 +26,8 @@ from elastogeo.identification.models import Comparison, ModelFit, compare_models
 from elastogeo.identification.physics import Consistency, Reciprocity, consistency, reciprocal_sources, reciprocity
 from elastogeo.identification.preference import moving_axes, retaining_order
 from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Trace
-from elastogeo.identification.rollers.stiffness_map import Stiffness, StiffnessMap, stiffness_map
-from elastogeo.identification.static_tests.assessment import static_results
+from elastogeo.identification.rollers.stiffness_map import Stiffness, StiffnessMap, map_stiffness
+from elastogeo.identification.static_tests.assessment import evaluate_static
 from elastogeo.identification.static_tests.cartesian import (
     CartesianCompliance,
     Principal,
@@ -69,6 +70,7 @@ __all__ = [
     "Difference",
     "DriveIdentification",
     "Effect",
+    "Explanation",
     "Fault",
     "Harmonic",
     "Identification",
@@ -103,8 +105,8 @@ __all__ = [
     "cartesian_from_vectors",
     "cartesian_of",
     "circularity",
+    "compare",
     "compare_models",
-    "compare_tests",
     "confounding_of",
     "consistency",
     "consistency_of",
@@ -113,12 +115,15 @@ __all__ = [
     "effect",
     "effects",
     "effects_of",
+    "evaluate_static",
+    "explain",
     "fitness",
     "hysteresis",
     "identify",
     "identify_drives",
     "local_change",
     "local_estimates",
+    "map_stiffness",
     "merged",
     "moving_axes",
     "noise_of",
@@ -130,8 +135,6 @@ __all__ = [
     "run_systems",
     "same_force",
     "static_line",
-    "static_results",
-    "stiffness_map",
     "strongest_harmonic",
     "systems_of",
     "turning_points",

@@ -38,10 +38,10 @@ def rmse(predicted: Array, measured: Array) -> float:
     return float(np.sqrt(np.mean((predicted - measured) ** 2)))
 
 
-def fitness(predicted: Array, measured: Array) -> float:
-    """Fitness [%]: `100 (1 - RMSE / (max - min of the measured))` (Eq. 5.41); NaN if nothing was measured to vary."""
+def fitness(predicted: Array, measured: Array) -> float | None:
+    """Fitness [%]: `100 (1 - RMSE / (max - min of the measured))` (Eq. 5.41); None if nothing was measured to vary."""
     span = float(np.ptp(measured))
-    return 100.0 * (1.0 - rmse(predicted, measured) / span) if span > 0 else float("nan")
+    return 100.0 * (1.0 - rmse(predicted, measured) / span) if span > 0 else None
 
 
 def strongest_harmonic(residual: Array, angle: Array, looks: int = 1) -> Harmonic:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
-from math import isnan
+from typing import Literal, TypedDict, Unpack
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from elastogeo.errors import DegreesOfFreedomError, InputError, RankError, Unsup
 from elastogeo.estimate import (
     Common,
     Confounding,
+    Estimate,
     Repeatability,
     Solution,
     confounding,
@@ -54,12 +55,27 @@ LEVELS_FOR_MODELS = 3
 """How many force levels it takes to say more of a compliance than that it is constant."""
 
 
-def identify(test: MachineTest) -> Identification:
+class Asked(TypedDict, total=False):
+    """What may be asked otherwise than a test asks itself: see `with_question`."""
+
+    parameters: str | Sequence[str] | None
+    prefer: str | Sequence[str] | None
+    reference: float | Literal["test", "none"]
+    levels: Sequence[float] | None
+    without_levels: Sequence[float] | None
+    reciprocal: bool
+    robust: bool
+
+
+def identify(test: MachineTest, **asked: Unpack[Asked]) -> Identification:
     """Identify the parameters that a test's question asks for.
 
     Parameters
     ----------
     test : MachineTest
+    **asked
+        Another question than the test's own, as in `with_question`: `parameters`, `prefer`, `reference`, `levels`,
+        `without_levels`, `reciprocal`, `robust`.
 
     Returns
     -------
@@ -72,12 +88,28 @@ def identify(test: MachineTest) -> Identification:
     UnsupportedError
         If no parameter changes any reading, the reference level is missing, or there are too few readings.
     """
+    test = with_question(test, **asked)
     systems = systems_of(test)
     found = confounding_of(test, systems)
     if test.question.robust:
         systems = downweighted(systems, found.retained)
     known = effects_of(test, systems)
     return _assessed(_identified(test, systems, found, known), systems, known)
+
+
+def identified(one: MachineTest | Identification, **asked: Unpack[Asked]) -> Identification:
+    """What a test says; of an identification, itself.
+
+    Raises
+    ------
+    InputError
+        If an identification is asked another question: only a test can be.
+    """
+    if isinstance(one, MachineTest):
+        return identify(one, **asked)
+    if asked:
+        raise InputError(f"{', '.join(asked)} cannot be asked of a result; ask the test, or identify it with this question")
+    return one
 
 
 def _identified(test: MachineTest, systems: Systems, found: Confounding, known: Sequence[Effect]) -> Identification:
@@ -161,9 +193,9 @@ def _held_against_physics(result: Identification) -> tuple[Identification, Check
 
 def with_question(
     test: MachineTest,
-    parameters: Sequence[str] | None = None,
-    prefer: Sequence[str] | None = None,
-    reference_force: float | None = None,
+    parameters: str | Sequence[str] | None = None,
+    prefer: str | Sequence[str] | None = None,
+    reference: float | Literal["test", "none"] = "test",
     levels: Sequence[float] | None = None,
     without_levels: Sequence[float] | None = None,
     reciprocal: bool = False,
@@ -171,20 +203,46 @@ def with_question(
 ) -> MachineTest:
     """The test with another question: its own where nothing else is given.
 
-    A reference force that is not a number (NaN) means that no level is taken off.
+    Parameters
+    ----------
+    test : MachineTest
+    parameters : str or sequence of str, optional
+        Names, patterns (`C_??X`) or presets (`planar-xy`) of the parameters to identify.
+    prefer : str or sequence of str, optional
+        Parameters to retain before others that cannot be told from them.
+    reference : float [N], "none" or "test"
+        Force level to subtract from all others; `"test"`: that of the test, if it has one.
+    levels, without_levels : sequence of float [N], optional
+        Force levels to use alone, and to leave out.
+    reciprocal : bool
+        Take each joint as symmetric: C_dfj and C_fdj are one parameter.
+    robust : bool
+        Let outlying readings count less (Huber).
+
+    Raises
+    ------
+    InputError
+        If the reference is neither a force nor one of the two words.
     """
     question = test.question
-    reference = question.reference_force if reference_force is None else reference_force
+    if isinstance(reference, str) and reference not in ("test", "none"):
+        raise InputError(f"the reference level is {reference!r}; give a force in N, or 'none' to subtract none")
+    force = question.reference_force if reference == "test" else None if reference == "none" else float(reference)
     asked = Question(
-        parameters=tuple(parameters or question.parameters),
-        reference_force=None if reference is not None and isnan(reference) else reference,
-        prefer=tuple(prefer or question.prefer),
+        parameters=_listed(parameters) or question.parameters,
+        reference_force=force,
+        prefer=_listed(prefer) or question.prefer,
         levels=tuple(levels or question.levels),
         without_levels=tuple(without_levels or question.without_levels),
         reciprocal=reciprocal or question.reciprocal,
         robust=robust or question.robust,
     )
     return replace(test, question=asked)
+
+
+def _listed(names: str | Sequence[str] | None) -> tuple[str, ...]:
+    """Names, of which one alone may be given as it is."""
+    return (names,) if isinstance(names, str) else tuple(names or ())
 
 
 def systems_of(test: MachineTest) -> Systems:
@@ -394,8 +452,9 @@ def _parameters(systems: Systems, found: Confounding, solution: Solution, budget
             name=name,
             unit=by_name[name].unit,
             meaning=by_name[name].meaning,
-            value=float(solution.values[k]),
-            standard_uncertainty=float(budget.standard_uncertainty[k]),
+            estimate=Estimate(
+                float(solution.values[k]), float(budget.standard_uncertainty[k]), float(budget.degrees_of_freedom[k])
+            ),
             interval=(float(budget.interval[k, 0]), float(budget.interval[k, 1])),
             stands_for=found.stands_for(name),
             peak_to_peak=float(spans[k]),

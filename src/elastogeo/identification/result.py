@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from elastogeo.estimate import Confounding, Repeatability, Solution
+from elastogeo.errors import SelectionError
+from elastogeo.estimate import Confounding, Estimate, Repeatability, Solution
 from elastogeo.identification.budget import Agreement, Budget
 from elastogeo.identification.change import Change
 from elastogeo.identification.check import Check
@@ -12,17 +14,18 @@ from elastogeo.identification.models import Comparison
 from elastogeo.identification.physics import Consistency
 from elastogeo.machine import Array
 from elastogeo.observe import MachineTest
+from elastogeo.result import Part, Result
 
 
-@dataclass(frozen=True, slots=True)
-class Parameter:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Parameter(Part):
     """An identified parameter.
 
     Attributes
     ----------
     name, unit, meaning : str
-    value, standard_uncertainty : float
-        In `unit`.
+    estimate : Estimate
+        In `unit`, with all influences.
     interval : tuple of 2 float
         95 % coverage interval.
     stands_for : dict of str to float
@@ -42,8 +45,7 @@ class Parameter:
     name: str
     unit: str
     meaning: str
-    value: float
-    standard_uncertainty: float
+    estimate: Estimate
     interval: tuple[float, float]
     stands_for: dict[str, float]
     peak_to_peak: float
@@ -51,6 +53,21 @@ class Parameter:
     axis: str
     elastic: bool
     separated: bool
+
+    @property
+    def value(self) -> float:
+        """Value, in `unit`."""
+        return self.estimate.value
+
+    @property
+    def standard_uncertainty(self) -> float:
+        """Combined standard uncertainty, in `unit` (JCGM 100, 5.1)."""
+        return self.estimate.standard_uncertainty
+
+    @property
+    def degrees_of_freedom(self) -> float:
+        """Effective degrees of freedom of the standard uncertainty (JCGM 100, G.4)."""
+        return self.estimate.degrees_of_freedom
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,8 +100,8 @@ class Level:
     readings : int
     rmse : float [mm]
         Eq. 5.40.
-    fitness : float [%]
-        Eq. 5.41.
+    fitness : float or None [%]
+        Eq. 5.41; None if nothing was measured to vary.
     elastic, geometric : tuple of 2 float [mm]
         Least and greatest predicted deviation that compliance, and that geometry without the set-up, cause (Figure 5.8).
     """
@@ -92,7 +109,7 @@ class Level:
     force: float
     readings: int
     rmse: float
-    fitness: float
+    fitness: float | None
     elastic: tuple[float, float]
     geometric: tuple[float, float]
 
@@ -131,9 +148,9 @@ class Pattern:
     response: Array
 
 
-@dataclass(frozen=True, slots=True)
-class Identification:
-    """All that one test says.
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Identification(Result):
+    """All that one test says: `result["C_XXX"]` is one of its parameters.
 
     Attributes
     ----------
@@ -195,3 +212,30 @@ class Identification:
     agreement: Agreement | None = None
     models: Comparison | None = None
     consistency: Consistency | None = None
+
+    def __getitem__(self, name: str) -> Parameter:
+        """The parameter of this name.
+
+        Raises
+        ------
+        SelectionError
+            If this test did not determine it; the message says what it did with the name.
+        """
+        for parameter in self.parameters:
+            if parameter.name == name:
+                return parameter
+        raise SelectionError(self._absent(name))
+
+    def __contains__(self, name: object) -> bool:
+        return any(parameter.name == name for parameter in self.parameters)
+
+    def __iter__(self) -> Iterator[str]:
+        return (parameter.name for parameter in self.parameters)
+
+    def _absent(self, name: str) -> str:
+        if name in self.confounding.null:
+            return f"{name} changes no reading of this test, so it has no value; load another direction or pose"
+        within = [parameter.name for parameter in self.parameters if name in parameter.stands_for]
+        if within:
+            return f"this test does not determine {name} by itself; it is part of the sum under {', '.join(within)}"
+        return f"{name!r} was not asked for; this result has {', '.join(self)}"

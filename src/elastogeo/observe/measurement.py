@@ -9,15 +9,15 @@ from typing import Protocol
 
 import numpy as np
 
+from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
 from elastogeo.machine import Array, Force, Forces, Length, Machine, Pressure
-from elastogeo.observe.about import About
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.observations import Observations
 
 
-@dataclass(frozen=True, slots=True)
-class Run:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Run(ByValue):
     """One run: what was recorded, and what was the same for every reading.
 
     Attributes
@@ -37,12 +37,6 @@ class Run:
         Counts the runs of one level, from 1.
     notes : tuple of str
         What was done to its recording before it became columns: sentences for the reader of the result.
-    file : str
-        The file it was read from, as the test names it; empty if it was read from none.
-    sha256 : str
-        Of that file's bytes, in hexadecimal digits.
-    simulated : str
-        What the file says of the simulation that made it; empty if it was measured.
     """
 
     name: str
@@ -53,9 +47,10 @@ class Run:
     sense: int = 1
     repeat: int = 1
     notes: tuple[str, ...] = ()
-    file: str = ""
-    sha256: str = ""
-    simulated: str = ""
+
+    def __repr__(self) -> str:
+        readings = max((len(column) for column in self.columns.values()), default=0)
+        return f"<Run {self.name!r}: {readings} readings of {', '.join(self.columns)}>"
 
 
 Respond = Callable[[Observations], Array]
@@ -147,8 +142,8 @@ class KnownInfluence:
     degrees_of_freedom: float = inf
 
 
-@dataclass(frozen=True, slots=True)
-class MachineTest:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class MachineTest(ByValue):
     """A test as a whole.
 
     Attributes
@@ -165,8 +160,6 @@ class MachineTest:
         Systematic influences on the readings.
     simulated : str
         From what the readings are simulated, in words; empty if they were measured.
-    about : About
-        Who, when, with what.
     """
 
     name: str
@@ -177,7 +170,6 @@ class MachineTest:
     resolution: float | None = None
     influences: tuple[KnownInfluence, ...] = ()
     simulated: str = ""
-    about: About = field(default_factory=About)
 
     def __post_init__(self) -> None:
         """Refuse a test without runs, or with two runs of one name."""
@@ -187,6 +179,10 @@ class MachineTest:
             raise InputError(f"test {self.name!r} names the run {twice[0]!r} twice; every run needs a name of its own")
         if not names:
             raise InputError(f"test {self.name!r} has no run")
+
+    def __repr__(self) -> str:
+        machine = f"{self.machine.name} ({self.machine.topology.compact})"
+        return f"<MachineTest {self.name!r}: {type(self.setup).__name__} on {machine}, {len(self.runs)} runs>"
 
     def observations(self) -> tuple[Observations, ...]:
         """The observations of every run that holds readings, in order."""

@@ -4,6 +4,7 @@ Stands on `identify` and all rooms below. matplotlib, jinja2 and typst (the extr
 something is drawn or a page is written: importing this room, JSON and the formatting of numbers need none of them.
 """
 
+from elastogeo.report import showing as _showing  # noqa: F401  the renderer of every result registers itself
 from elastogeo.report.as_json import (
     COMPARISON_SCHEMA,
     CONFOUNDING_SCHEMA,

@@ -6,7 +6,6 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from typing import Any
 
-from elastogeo import __version__
 from elastogeo.estimate import Repeatability
 from elastogeo.identification import CONDITION_LIMIT, Check, Circularity, Comparison, Consistency, Diagnosis, Identification
 from elastogeo.observe import BallRoller, LoadedBallBar
@@ -36,6 +35,7 @@ from elastogeo.report.words import (
     structure_words,
     uncertainty_words,
 )
+from elastogeo.version import VERSION
 
 Context = dict[str, Any]
 _MINUTE = 60.0
@@ -49,7 +49,7 @@ def report_context(result: Identification) -> Context:
     strongest = max(result.levels, key=lambda level: abs(level.force))
     diagnosis, levels = diagnosis_of(result), _levels(result)
     return {
-        "version": __version__,
+        "version": VERSION,
         "test": {"name": test.name, "machine": test.machine.name, "simulated": test.simulated},
         "facts": facts(result),
         "banner": banner(result),

@@ -63,9 +63,9 @@ def written_unit(unit: str) -> str:
     return unit.replace("N mm", "N·mm").replace("^2", "²").replace("^3", "³")
 
 
-def significant(value: float, digits: int = 3) -> str:
+def significant(value: float | None, digits: int = 3) -> str:
     """A number with so many significant digits, trailing zeros kept: `43.7`, `0.140`, `1.20e-07`."""
-    if not isfinite(value):
+    if value is None or not isfinite(value):
         return UNKNOWN
     if value == 0:
         return "0"

@@ -133,12 +133,14 @@ class DriveDocument:
     simulated: str = ""
 
 
-def read_drives(paths: Sequence[Path], axes: Sequence[str] = (), held_out: Sequence[str] = ()) -> DriveTest:
+def read_drives(
+    paths: str | Path | Sequence[str | Path], axes: Sequence[str] = (), held_out: Sequence[str] = ()
+) -> DriveTest:
     """Read a drive file, a folder that holds a `drive.toml`, or logs whose headers say quantity and unit.
 
     Parameters
     ----------
-    paths : sequence of Path
+    paths : str, Path, or sequence of these
         One drive file or folder, or one log or more.
     axes : sequence of str
         Axes to read; default those of the file, else all.
@@ -152,8 +154,10 @@ def read_drives(paths: Sequence[Path], axes: Sequence[str] = (), held_out: Seque
     InputError
         If the test contradicts itself.
     """
-    documents = [path for path in paths if path.is_dir() or path.suffix.lower() == ".toml"]
-    if documents and len(paths) > 1:
+    given = [paths] if isinstance(paths, str | Path) else paths
+    files = [Path(path) for path in given]
+    documents = [path for path in files if path.is_dir() or path.suffix.lower() == ".toml"]
+    if documents and len(files) > 1:
         raise FormatError(f"{documents[0]}: is a drive file, which names its logs; give it alone, or logs alone")
     if documents:
         file = documents[0] / FILE_NAME if documents[0].is_dir() else documents[0]
@@ -161,9 +165,9 @@ def read_drives(paths: Sequence[Path], axes: Sequence[str] = (), held_out: Seque
         check_schema(table, SCHEMA, str(file))
         document = build(DriveDocument, table, str(file))
         return _test(document, _logs(document, file), str(file), axes, held_out)
-    name = ", ".join(path.name for path in paths[:3]) + (f" and {len(paths) - 3} more" if len(paths) > 3 else "")
-    document = DriveDocument(SCHEMA, name, tuple(map(str, paths)))
-    return _test(document, list(paths), name, axes, held_out)
+    name = ", ".join(path.name for path in files[:3]) + (f" and {len(files) - 3} more" if len(files) > 3 else "")
+    document = DriveDocument(SCHEMA, name, tuple(map(str, files)))
+    return _test(document, files, name, axes, held_out)
 
 
 def _logs(document: DriveDocument, file: Path) -> list[Path]:

@@ -8,17 +8,18 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from elastogeo.errors import FormatError, InputError
 from elastogeo.formats.channels import ChannelUse, Clock, on_one_clock
 from elastogeo.formats.documents.machines import find_machine
 from elastogeo.formats.log_files import log_formats, read_log
 from elastogeo.formats.run_files import read_run, run_formats
 from elastogeo.formats.text.by_content import HEAD
-from elastogeo.formats.text.fingerprint import sha256_of
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.machine import Force, Length, Pressure, Time
-from elastogeo.observe import About, KnownInfluence, MachineTest, Question, Run, check_runs, instrument_named, turning
+from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, instrument_named
 
 SCHEMA = "elastogeo.test/1"
 FILE_NAME = "test.toml"
@@ -69,20 +70,23 @@ class TestDocument:
     simulated: str = ""
     channels: tuple[ChannelUse, ...] = ()
     clock: Clock = field(default_factory=Clock)
-    about: About = field(default_factory=About)
 
 
-def read_test(path: Path, read: ReadRun | None = None, setup: Mapping[str, Any] | None = None) -> MachineTest:
+def read_test(
+    path: str | Path, read: ReadRun | None = None, setup: Mapping[str, Any] | None = None, planned: int = 0
+) -> MachineTest:
     """Read a test: a folder that holds a `test.toml`, or such a file.
 
     Parameters
     ----------
-    path : Path
-    read : callable
+    path : str or Path
+    read : callable, optional
         From the path of a run file to its table; by default the file is read, as a log where the test says or the file shows
         that it is one. A simulation gives its poses here, for runs that no file holds yet.
     setup : mapping of str to any, optional
         What stands in the file's table `setup` is replaced by these entries: a simulation's truth.
+    planned : int
+        Readings of a full turn to assume for every run instead of reading its file: for a test that has not been run.
 
     Returns
     -------
@@ -95,21 +99,24 @@ def read_test(path: Path, read: ReadRun | None = None, setup: Mapping[str, Any] 
     InputError
         If the machine or the test contradicts itself.
     """
-    file, document = read_test_document(path)
-    runs = tuple(_run(entry, _table(document, entry, file.parent, read), file.parent) for entry in document.runs)
-    if read is None:
-        _check(runs, file)
+    file, document = read_test_document(Path(path))
+    read = full_turn(planned) if planned and read is None else read
     return MachineTest(
         name=document.name,
         machine=find_machine(document.machine, file.parent),
         setup=build(instrument_named(document.instrument), {**document.setup, **(setup or {})}, f"{file}, setup"),
-        runs=runs,
+        runs=tuple(_run(entry, _table(document, entry, file.parent, read)) for entry in document.runs),
         question=document.question,
         resolution=document.resolution,
         influences=document.influences,
-        simulated=document.simulated or ", ".join(dict.fromkeys(run.simulated for run in runs if run.simulated)),
-        about=document.about,
+        simulated=document.simulated,
     )
+
+
+def full_turn(readings: int) -> ReadRun:
+    """Poses of one full turn with this many readings, for runs that no file holds yet."""
+    angle = 2 * np.pi * np.arange(readings) / readings
+    return lambda path: Table({"angle": angle, "radial": np.zeros(readings)}, {}, str(path))
 
 
 def read_test_document(path: Path) -> tuple[Path, TestDocument]:
@@ -167,17 +174,9 @@ def _is_only_log(path: Path) -> bool:
     return any(known.can_read(head) for known in log_formats().values())
 
 
-def _check(runs: tuple[Run, ...], file: Path) -> None:
-    try:
-        check_runs(runs)
-    except InputError as error:
-        raise InputError(f"{file}: {error}") from None
-
-
-def _run(document: RunDocument, table: Table, folder: Path) -> Run:
+def _run(document: RunDocument, table: Table) -> Run:
     said, _, number = document.file.partition("#")
-    falling = "angle" in table.columns and turning(table.columns["angle"]) < 0
-    sense = document.sense or table.metadata.get("direction", "cw" if falling else "ccw").lower()
+    sense = document.sense or table.metadata.get("direction", "ccw").lower()
     if sense != table.metadata.get("direction", sense).lower():
         raise FormatError(
             f"{table.source}: the file says that the run went {table.metadata['direction']}, the test says {sense}; "
@@ -192,13 +191,4 @@ def _run(document: RunDocument, table: Table, folder: Path) -> Run:
         sense=_SENSES[sense],
         repeat=document.repeat,
         notes=tuple(table.metadata.get("clock", "").splitlines()),
-        file=document.file,
-        sha256=_hash(folder, document.file),
-        simulated=table.metadata.get("simulated", ""),
     )
-
-
-def _hash(folder: Path, name: str) -> str:
-    """Of the file of a run, of which `name#2` is the second run; empty if there is none yet."""
-    path = folder / name if (folder / name).exists() else folder / name.partition("#")[0]
-    return sha256_of(path) if path.exists() else ""

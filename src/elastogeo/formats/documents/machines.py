@@ -34,6 +34,11 @@ def shipped_machines() -> dict[str, Path]:
     return {path.stem: path for path in sorted(folder.glob("*.toml"))}
 
 
+def machines() -> dict[str, Machine]:
+    """The machines that ship with elastogeo, by name."""
+    return {name: read_machine(path) for name, path in shipped_machines().items()}
+
+
 def find_machine(name: str, beside: Path) -> Machine:
     """The machine that a document names: a shipped one, or a file, relative to the folder of the document.
 
@@ -53,14 +58,14 @@ def find_machine(name: str, beside: Path) -> Machine:
     )
 
 
-def read_machine(path: Path) -> Machine:
-    """Read a machine file.
+def read_machine(path: str | Path) -> Machine:
+    """Read a machine file, or a machine that ships with elastogeo.
 
     Parameters
     ----------
-    path : Path
-        A TOML file with `schema`, `name`, `topology`, `tool_mm`, and a table per axis with `offset_mm`, `tilt_deg`,
-        `travel_mm` or `travel_deg`, `compliant`.
+    path : str or Path
+        The name of a shipped machine (`hermle_c50`), or a TOML file with `schema`, `name`, `topology`, `tool_mm`, and a
+        table per axis with `offset_mm`, `tilt_deg`, `travel_mm` or `travel_deg`, `compliant`.
 
     Raises
     ------
@@ -69,6 +74,7 @@ def read_machine(path: Path) -> Machine:
     MachineError
         If the topology is none, or the machine contradicts itself.
     """
+    path = shipped_machines().get(str(path), Path(path))
     table = read_document(path)
     check_schema(table, SCHEMA, str(path))
     document = build(MachineDocument, table, str(path))

@@ -18,7 +18,6 @@ from elastogeo.formats.run_files import RunFormat, run_formats
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.formats.text.units import dimensions_of, from_internal
-from elastogeo.formats.text.whole_files import write_whole
 from elastogeo.machine import Angle, Array
 from elastogeo.observe import Imperfection, MachineTest, Run
 
@@ -72,7 +71,7 @@ class Simulation:
         return self.start + (self.end - self.start) * np.arange(self.readings) / self.readings
 
 
-def read_simulation(path: Path) -> Simulation:
+def read_simulation(path: str | Path) -> Simulation:
     """Read a simulation file.
 
     Raises
@@ -80,14 +79,9 @@ def read_simulation(path: Path) -> Simulation:
     FormatError
         If it is no such document.
     """
-    table = read_document(path)
+    table = read_document(Path(path))
     check_schema(table, SCHEMA, str(path))
     return build(Simulation, table, str(path))
-
-
-def full_turn(readings: int) -> ReadRun:
-    """Poses of one full turn with this many readings, for runs that no file holds yet."""
-    return poses_of(Simulation(SCHEMA, {}, readings=readings))
 
 
 def poses_of(simulation: Simulation) -> ReadRun:
@@ -116,7 +110,7 @@ def write_runs(path: Path, test: MachineTest, seed: int) -> tuple[Path, ...]:
     Raises
     ------
     FormatError
-        If one of the files is there already, cannot be written, or ends like no writable format: nothing is written then.
+        If one of the files is there already: nothing is written then. Or if its ending is that of no writable format.
     """
     file, document = read_test_document(path)
     targets = [file.parent / run.file for run in document.runs]
@@ -124,7 +118,12 @@ def write_runs(path: Path, test: MachineTest, seed: int) -> tuple[Path, ...]:
     if there:
         raise FormatError(f"{there[0]} is there already, and {len(there) - 1} more; a recorded run is never overwritten")
     contents = [_content(run, _format_of(target), seed) for run, target in zip(test.runs, targets, strict=True)]
-    return write_whole(dict(zip(targets, contents, strict=True)))
+    for target, content in zip(targets, contents, strict=True):
+        target.parent.mkdir(parents=True, exist_ok=True)
+        partial = target.with_name(target.name + ".part")
+        partial.write_bytes(content)
+        partial.replace(target)
+    return tuple(targets)
 
 
 def _format_of(target: Path) -> RunFormat:

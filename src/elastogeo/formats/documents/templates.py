@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.documents.machine_tests import FILE_NAME
 from elastogeo.formats.documents.machines import find_machine
-from elastogeo.formats.text.whole_files import write_whole
 
 _TEST = """\
 schema = "elastogeo.test/1"
@@ -61,16 +61,18 @@ E_XX1 = -1e-4
 """
 
 
-def write_new_test(folder: Path, machine: str, forces: tuple[float, ...], repeats: int) -> Path:
+def new_test(
+    folder: str | Path, machine: str = "hermle_c50", forces: Sequence[float] = (36.0, 238.0, 490.0, 742.0), repeats: int = 1
+) -> Path:
     """Make a folder with a test file and a simulation file.
 
     Parameters
     ----------
-    folder : Path
+    folder : str or Path
         It must not exist.
     machine : str
         A shipped machine or a machine file.
-    forces : tuple of float [N]
+    forces : sequence of float [N]
         Levels; the least is the reference.
     repeats : int
         Runs at each level.
@@ -85,6 +87,7 @@ def write_new_test(folder: Path, machine: str, forces: tuple[float, ...], repeat
     FormatError
         If the folder exists, or there is no such machine.
     """
+    folder = Path(folder)
     found = find_machine(machine, Path.cwd())
     if folder.exists():
         raise FormatError(f"{folder} is there already; choose another name, nothing was changed")
@@ -96,7 +99,9 @@ def write_new_test(folder: Path, machine: str, forces: tuple[float, ...], repeat
         for force in sorted(forces)
         for repeat in range(1, repeats + 1)
     )
+    folder.mkdir(parents=True)
     name = machine if not machine.endswith(".toml") else str(Path(machine).resolve())
     text = _TEST.format(machine=name, centre=centre, reference=min(forces)) + runs
-    write_whole({folder / FILE_NAME: text.encode(), folder / "simulation.toml": _SIMULATION.encode()})
+    (folder / FILE_NAME).write_text(text, encoding="utf-8")
+    (folder / "simulation.toml").write_text(_SIMULATION, encoding="utf-8")
     return folder / FILE_NAME

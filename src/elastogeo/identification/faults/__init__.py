@@ -4,7 +4,7 @@ Stands on the files of `identification` and the rooms below it.
 """
 
 from elastogeo.identification.faults.circularity import Circularity, circularity
-from elastogeo.identification.faults.comparison import BeforeAfter, Difference, compare_tests
+from elastogeo.identification.faults.comparison import BeforeAfter, Difference, compare
 from elastogeo.identification.faults.diagnosis import Diagnosis, Fault, diagnose
 from elastogeo.identification.faults.what_if import WhatIf, what_if
 
@@ -16,7 +16,7 @@ __all__ = [
     "Fault",
     "WhatIf",
     "circularity",
-    "compare_tests",
+    "compare",
     "diagnose",
     "what_if",
 ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Unpack
 
 import numpy as np
 
@@ -11,7 +12,10 @@ from elastogeo.errors import UnsupportedError
 from elastogeo.estimate import Solution, coverage_factor
 from elastogeo.identification.change import SIGNIFICANT, Change, difference, difference_freedom
 from elastogeo.identification.check import Check
+from elastogeo.identification.identification import Asked, identified
 from elastogeo.identification.result import Identification
+from elastogeo.observe import MachineTest
+from elastogeo.result import Result
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,8 +43,8 @@ class Difference:
     p_value: float
 
 
-@dataclass(frozen=True, slots=True)
-class BeforeAfter:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class BeforeAfter(Result):
     """What changed between two tests.
 
     Attributes
@@ -60,9 +64,20 @@ class BeforeAfter:
     verdict: tuple[Check, ...]
 
 
-def compare_tests(before: Identification, after: Identification) -> BeforeAfter:
+def compare(
+    before: MachineTest | Identification, after: MachineTest | Identification, **asked: Unpack[Asked]
+) -> BeforeAfter:
     """Compare two tests of one machine.
 
+    Parameters
+    ----------
+    before, after : MachineTest or Identification
+        Tests, or what they say already.
+    **asked
+        Of tests, another question than their own, as in `with_question`.
+
+    Notes
+    -----
     Their systematic influences count as independent: a gauge or bar that both share makes the judgement more cautious
     than need be, never less.
 
@@ -71,6 +86,7 @@ def compare_tests(before: Identification, after: Identification) -> BeforeAfter:
     UnsupportedError
         If the machines have different topologies, or the tests determine no parameter in common.
     """
+    before, after = identified(before, **asked), identified(after, **asked)
     machines = before.test.machine, after.test.machine
     if machines[0].topology != machines[1].topology:
         raise UnsupportedError(

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Unpack
 
 import numpy as np
 from scipy.special import fdtri
 
 from elastogeo.identification.faults.circularity import Circularity, circularity
 from elastogeo.identification.faults.enclosing_circles import Path
+from elastogeo.identification.identification import Asked, identified
 from elastogeo.identification.result import Identification, Parameter, Trace
 from elastogeo.identification.systems import same_force
 from elastogeo.machine import Array
-from elastogeo.observe import LoadedBallBar
+from elastogeo.observe import LoadedBallBar, MachineTest
+from elastogeo.result import Result
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,12 +56,14 @@ class Fault:
     also: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Diagnosis:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Diagnosis(Result):
     """A ranked diagnosis.
 
     Attributes
     ----------
+    identification : Identification
+        That it was made from.
     faults : tuple of Fault
         Greatest distortion first; set-up errors are not faults of the machine and come last.
     untold : tuple of str
@@ -67,24 +72,29 @@ class Diagnosis:
         ISO 230-4 parameters of the measured traces by force level [N].
     """
 
+    identification: Identification
     faults: tuple[Fault, ...]
     untold: tuple[str, ...]
     circularity: dict[float, Circularity]
 
 
-def diagnose(result: Identification) -> Diagnosis:
+def diagnose(one: MachineTest | Identification, **asked: Unpack[Asked]) -> Diagnosis:
     """Rank the identified faults by how much they distort the trace at the highest force.
 
     Parameters
     ----------
-    result : Identification
+    one : MachineTest or Identification
+        A test, or what it says already.
+    **asked
+        Of a test, another question than its own, as in `with_question`.
     """
+    result = identified(one, **asked)
     pairs = _paired(result)
     drafts = [_fault(result, members) for members in pairs]
     total = sum(abs(fault.distortion) for fault in drafts if fault.axis) or 1.0
     ranked = sorted(drafts, key=lambda fault: (not fault.axis, -abs(fault.distortion)))
     faults = tuple(replace(fault, share=abs(fault.distortion) / total if fault.axis else 0.0) for fault in ranked)
-    return Diagnosis(faults, result.confounding.null, level_circularity(result))
+    return Diagnosis(result, faults, result.confounding.null, level_circularity(result))
 
 
 def level_circularity(result: Identification, traces: Sequence[Trace] | None = None) -> dict[float, Circularity]:

@@ -5,22 +5,27 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
+from typing import Unpack
 
 import numpy as np
 
 from elastogeo.errors import SelectionError
 from elastogeo.identification.faults.circularity import Circularity
 from elastogeo.identification.faults.diagnosis import level_circularity
-from elastogeo.identification.identification import systems_of
+from elastogeo.identification.identification import Asked, identified, systems_of
 from elastogeo.identification.result import Identification, Trace
+from elastogeo.observe import MachineTest
+from elastogeo.result import Result
 
 
-@dataclass(frozen=True, slots=True)
-class WhatIf:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class WhatIf(Result):
     """A test without some of its faults.
 
     Attributes
     ----------
+    identification : Identification
+        That it rests on.
     corrected : tuple of str
         Parameters whose part is taken off.
     traces : tuple of Trace
@@ -31,6 +36,7 @@ class WhatIf:
         Of each run's trace, before and after.
     """
 
+    identification: Identification
     corrected: tuple[str, ...]
     traces: tuple[Trace, ...]
     before: dict[float, Circularity]
@@ -38,14 +44,17 @@ class WhatIf:
     peak_to_peak: dict[str, tuple[float, float]]
 
 
-def what_if(result: Identification, patterns: Sequence[str]) -> WhatIf:
+def what_if(one: MachineTest | Identification, correct: str | Sequence[str], **asked: Unpack[Asked]) -> WhatIf:
     """Predict the traces with the faults of some parameters corrected.
 
     Parameters
     ----------
-    result : Identification
-    patterns : sequence of str
+    one : MachineTest or Identification
+        A test, or what it says already.
+    correct : str or sequence of str
         Names or shell patterns of identified parameters.
+    **asked
+        Of a test, another question than its own, as in `with_question`.
 
     Raises
     ------
@@ -53,6 +62,8 @@ def what_if(result: Identification, patterns: Sequence[str]) -> WhatIf:
         If a pattern names no identified parameter. A parameter that cannot be told from others is corrected with them, under
         the name of the retained one.
     """
+    result = identified(one, **asked)
+    patterns = (correct,) if isinstance(correct, str) else tuple(correct)
     known = [parameter.name for parameter in result.parameters]
     for pattern in patterns:
         if not any(fnmatchcase(name, pattern) for name in known):
@@ -66,6 +77,7 @@ def what_if(result: Identification, patterns: Sequence[str]) -> WhatIf:
         traces.append(Trace(trace.run, trace.force, trace.pose, trace.measured - part, trace.predicted - part))
     spans = zip(result.traces, traces, strict=True)
     return WhatIf(
+        identification=result,
         corrected=corrected,
         traces=tuple(traces),
         before=level_circularity(result),

@@ -35,6 +35,7 @@ from elastogeo.drive import (
 from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.identification.check import Check
 from elastogeo.identification.feed_drives.verdict import NEVER_NEGATIVE, drive_verdict
+from elastogeo.result import Result
 
 WORTH_HAVING = 0.01
 """A model that lowers the error at left-out runs by less than this share is not worth its parameters."""
@@ -177,8 +178,8 @@ class AxisDrive:
     verdict: tuple[Check, ...] = ()
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class DriveIdentification:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class DriveIdentification(Result):
     """The drives of a test.
 
     Attributes

@@ -3,6 +3,6 @@
 Stands on the files of `identification` and the rooms below it.
 """
 
-from elastogeo.identification.rollers.stiffness_map import Stiffness, StiffnessMap, stiffness_map
+from elastogeo.identification.rollers.stiffness_map import Stiffness, StiffnessMap, map_stiffness
 
-__all__ = ["Stiffness", "StiffnessMap", "stiffness_map"]
+__all__ = ["Stiffness", "StiffnessMap", "map_stiffness"]

@@ -32,6 +32,7 @@ from elastogeo.identification.result import Identification
 from elastogeo.identification.systems import merged
 from elastogeo.machine import Array
 from elastogeo.observe import BallRoller, MachineTest
+from elastogeo.result import Result
 from elastogeo.sources import NODES
 
 PRESET = "volumetric"
@@ -71,8 +72,8 @@ class Stiffness:
         return _inverse(self.interval[:, ::-1])
 
 
-@dataclass(frozen=True, slots=True)
-class StiffnessMap:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class StiffnessMap(Result):
     """What a ball-roller test says.
 
     Attributes
@@ -110,7 +111,7 @@ class StiffnessMap:
         return {axis: motor_parameters(balance, drives[axis]) for axis, balance in self.balances.items()}
 
 
-def stiffness_map(test: MachineTest, rig_test: MachineTest | None = None) -> StiffnessMap:
+def map_stiffness(test: MachineTest, rig_test: MachineTest | None = None) -> StiffnessMap:
     """The stiffness map of a ball-roller test, and the joint parameters that its question asks for.
 
     Parameters

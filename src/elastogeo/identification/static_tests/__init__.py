@@ -3,7 +3,7 @@
 Stands on the files of `identification` and the rooms below it.
 """
 
-from elastogeo.identification.static_tests.assessment import static_results
+from elastogeo.identification.static_tests.assessment import evaluate_static
 from elastogeo.identification.static_tests.cartesian import CartesianCompliance, Principal, Symmetry
 from elastogeo.identification.static_tests.drive_train import OnAxis, OnAxisPart, OnAxisRecord
 from elastogeo.identification.static_tests.hysteresis import StaticHysteresis, hysteresis
@@ -32,7 +32,7 @@ __all__ = [
     "StaticResults",
     "Symmetry",
     "TwistRun",
+    "evaluate_static",
     "hysteresis",
     "static_line",
-    "static_results",
 ]

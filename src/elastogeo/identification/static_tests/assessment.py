@@ -53,7 +53,7 @@ SETUP = {f"E_{axis}{point}0" for axis in "XYZ" for point in "tw"} | {"E_R0"}
 """Parameters that are zeros of sensors: who asks for one did not zero them without load."""
 
 
-def static_results(test: MachineTest, feedback: str = "motor") -> StaticResults:
+def evaluate_static(test: MachineTest, feedback: str = "motor") -> StaticResults:
     """What a static test says.
 
     Parameters

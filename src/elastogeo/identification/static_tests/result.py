@@ -14,6 +14,7 @@ from elastogeo.identification.static_tests.hysteresis import StaticHysteresis
 from elastogeo.identification.static_tests.straight_line import StaticLine
 from elastogeo.machine import Array
 from elastogeo.observe import SensorTwist
+from elastogeo.result import Result
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,8 +150,8 @@ class TwistRun:
         return max(self.steps, key=lambda step: abs(step.force))
 
 
-@dataclass(frozen=True, slots=True)
-class StaticResults:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class StaticResults(Result):
     """What a static test says.
 
     Attributes

@@ -17,10 +17,10 @@ from typing import Any
 
 import numpy as np
 
-from elastogeo import __version__
 from elastogeo.identification import Check
 from elastogeo.observe import MachineTest, instruments
 from elastogeo.report.sentences import sentence_of
+from elastogeo.version import VERSION
 
 UM = 1000.0
 """Micrometres in a millimetre."""
@@ -28,7 +28,7 @@ UM = 1000.0
 
 def document(schema: str, entries: Mapping[str, Any]) -> dict[str, Any]:
     """A document of this schema, with plain JSON types only."""
-    whole = {"schema": schema, "software": {"name": "elastogeo", "version": __version__}, **entries}
+    whole = {"schema": schema, "software": {"name": "elastogeo", "version": VERSION}, **entries}
     return {key: _plain(value) for key, value in whole.items()}
 
 
