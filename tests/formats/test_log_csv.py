@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from elastogeo.errors import FormatError
+from elastogeo.formats.channels import ChannelUse, Clock, on_one_clock
 from elastogeo.formats.log import Log
 from elastogeo.formats.logs.csv import can_read, read_csv_log
 
@@ -145,12 +146,13 @@ def test_what_is_no_number_is_kept_as_such_or_left_out_and_told() -> None:
     np.testing.assert_array_equal(log.channels["a"].values, [1, np.nan, 3])
     np.testing.assert_array_equal(log.channels["b"].values, [np.nan, 2, np.nan])
     np.testing.assert_array_equal(log.channels["c"].values, [np.nan, np.nan, 0.5])
-    assert list(log.channels) == ["a", "b", "c"]
+    np.testing.assert_array_equal(log.channels["f"].values, [1, np.nan, 2])
+    assert list(log.channels) == ["a", "b", "c", "f"]
     assert log.notes == (
         "column 1 has no name: left out",
         "column e is empty: left out",
+        "column f: 1 of 3 cells is no number ('x' on line 3): kept as samples without a number",
         "columns of text, left out: State",
-        "columns of numbers with something else among them, left out: f (1 of 3, 'x' near line 3)",
         "samples without a number, kept as such: a (1 of 3), b (2 of 3), c (2 of 3)",
     )
 
@@ -189,10 +191,13 @@ def test_rows_without_a_time_are_left_out_and_told() -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("time_s,x_mm\n1,10\nsoon,20\n", "f: the clock 'time_s' holds 'soon' near line 3; correct it"),
+        ("time_s,x_mm\n1,10\nsoon,20\n", "f: the clock 'time_s' holds 'soon' on line 3; correct it"),
         ("timestamp,x_mm\n2024-01-01T00:00:00,1\n12:00,2\n", "'12:00' of sample 2 is no ISO 8601 time with its date"),
         ("timestamp,x_mm\n2024-01-01T00:00:00,1\n2024-13-01T00:00:00,2\n", "of sample 2 is no ISO 8601 time with its date"),
-        ("timestamp,x_mm\n2024-01-01T00:00:00,1\n2024-01-01T00:00:01Z,2\n", "some times have a zone and some have none"),
+        (
+            "timestamp,x_mm\n2024-01-01T00:00:00,1\n2024-01-01T00:00:01Z,2\n",
+            "of sample 2 has a zone or has none, unlike the first; use one kind",
+        ),
         ("time_s,x_mm\n1,10\n2\n3,30\n", "f: line 3 has 1 cells, the header has 2; complete it or take it out"),
         ("time_s,x_mm\n1,10\n2,2,0\n3,3,0\n", "f: 2 lines will not do"),
         ("time_s,x_mm,x_mm\n1,10,2\n", "f, line 1: several columns are named 'x_mm'"),
@@ -209,9 +214,80 @@ def test_what_will_not_do_is_told(text: str, message: str) -> None:
 
 
 def test_marks_of_two_kinds_are_never_mixed() -> None:
-    log = read("time_s;x_mm;y_mm\n1;1,5;1.234\n2;2,5;1.235\n")
+    log = read("time_s;x_mm;y_mm;z_mm\n1;1,5;1.234;1\n2;2,5;1.235;2.000\n")
+    assert list(log.channels) == ["x_mm", "z_mm"]
+    np.testing.assert_array_equal(log.channels["z_mm"].values, [1, np.nan])
+    said = "column z_mm: 1 of 2 cells is no number of the decimal mark ',' ('2.000' on line 3)"
+    assert log.notes[0] == f"{said}: kept as samples without a number"
+    assert log.notes[1] == "columns of text, left out: y_mm"
+
+
+PREAMBLES = {
+    "trace": "Trace export;v1.2\nMachine;DMU 50\n\nPosition X;Strom X\nmm;A\n1,5;0,25\n-2,5;0,5\n",
+    "addresses": "[Header]\nServo guide\nDate, 2026-01-31\n[Data]\nDB1.0,DB2.0\nPosition X,Strom X\n1.5,0.25\n-2.5,0.5\n",
+    "prose": "Recorded by two people on a rainy day\n\nNo of channels: 2\nPosition X\tStrom X\n1.5\t0.25\n-2.5\t0.5\n",
+}
+
+
+@pytest.mark.parametrize("text", PREAMBLES.values(), ids=PREAMBLES.keys())
+def test_a_preamble_above_the_headers_is_passed_over_and_told(text: str) -> None:
+    log = read(text)
+    assert [(c.name, c.values.tolist()) for c in log.channels.values()] == [
+        ("Position X", [1.5, -2.5]),
+        ("Strom X", [0.25, 0.5]),
+    ]
+    line = text[: text.index("Position")].count("\n") + 1
+    assert f"lines above the column headers on line {line} were not understood: left out" in log.notes
+    assert [c.unit for c in log.channels.values()] == (["mm", "A"] if "mm;A" in text else ["", ""])
+
+
+def test_a_bad_cell_is_no_sample_and_says_column_count_and_line() -> None:
+    text = "time_ms,current_x_A\n" + "".join(f"{k},{'Err' if k == 7 else '---' if k == 9 else k / 8}\n" for k in range(40))
+    log = read(text)
+    expected = np.arange(40) / 8
+    expected[[7, 9]] = np.nan
+    np.testing.assert_array_equal(log.channels["current_x_A"].values, expected)
+    said = "column current_x_A: 2 of 40 cells are no numbers ('Err' on line 9, '---' on line 11)"
+    assert log.notes == (f"{said}: kept as samples without a number",)
+
+
+def test_a_column_that_is_mostly_text_is_left_out_with_its_reason() -> None:
+    log = read("time_s,x_mm,tool\n0,1,T1\n1,2,T2\n2,3,5\n")
     assert list(log.channels) == ["x_mm"]
-    assert "left out: y_mm" in log.notes[0]
+    assert log.notes == (
+        "column tool: 2 of 3 cells are no numbers ('T1' on line 2, 'T2' on line 3): the column is left out",
+    )
+
+
+COUNTS = [101, 102, 103, 3953, 3954]
+
+
+def test_a_counter_that_leaves_samples_out_is_the_clock_of_the_samples() -> None:
+    log = read("CYCLE,X\n" + "".join(f"{n},{n / 2}\n" for n in COUNTS))
+    assert log.counter == "CYCLE"
+    assert log.notes == ("column CYCLE counts samples and leaves out 3849 in one place, after sample 3",)
+    told = on_one_clock(log, (ChannelUse("position_x", "X", "mm"),), Clock(sample_time=0.002))
+    assert told.table.column("time") == pytest.approx([0, 0.002, 0.004, 7.704, 7.706])
+    assert any("no sample for 7.7 s after 0.004 s (left open)" in sentence for sentence in told.report)
+
+
+def test_a_counter_may_begin_again_but_never_go_back() -> None:
+    log = read("sample_no,X\n" + "".join(f"{n % 256},{n}\n" for n in range(250, 262)))
+    told = on_one_clock(log, (ChannelUse("position_x", "X", "mm"),), Clock(sample_time=0.5))
+    assert told.table.column("time") == pytest.approx(np.arange(12) / 2)
+    assert log.notes == ("column sample_no: the counter began again 1 times: counted on",)
+    message = refused("CYCLE,X\n101,1\n103,3\n102,2\n104,4\n")
+    assert message == (
+        "f, column CYCLE: counts samples, but does not go forward at sample 3 (103, then 102; 1 such places); put the rows "
+        "in the order in which they were recorded"
+    )
+
+
+@pytest.mark.parametrize("column", ["cycle,1,1,1,2,2,2", "count,0.5,1,1.5,2,2.5,3", "level,3,1,2,5,4,6"])
+def test_other_columns_count_no_samples(column: str) -> None:
+    name, *values = column.split(",")
+    log = read(f"{name},X\n" + "".join(f"{value},{k}\n" for k, value in enumerate(values)))
+    assert (log.counter, log.notes) == ("", ())
 
 
 def test_a_last_line_that_may_be_cut_is_never_half_read() -> None:

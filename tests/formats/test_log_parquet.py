@@ -1,6 +1,5 @@
 import datetime
 import io
-import sys
 
 import numpy as np
 import pyarrow as pa
@@ -246,13 +245,6 @@ def test_every_changed_bit_of_a_sample_gives_the_same_log_or_a_format_error():
         except FormatError:
             continue
         assert {name: channel.values.tobytes() for name, channel in log.channels.items()} == values
-
-
-def test_missing_pyarrow_is_told(monkeypatch):
-    data = _sample()
-    monkeypatch.setitem(sys.modules, "pyarrow", None)
-    with pytest.raises(FormatError, match=r"pip install 'elastogeo\[parquet\]'"):
-        read_parquet_log(data, "f")
 
 
 @pytest.mark.parametrize(

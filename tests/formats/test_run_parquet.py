@@ -1,5 +1,4 @@
 import io
-import sys
 
 import numpy as np
 import pyarrow as pa
@@ -76,13 +75,6 @@ def test_one_changed_bit_of_the_readings_is_found() -> None:
         damaged[where + bit // 8] ^= 1 << bit % 8
         with pytest.raises(FormatError, match="the Parquet file is damaged"):
             read_parquet(bytes(damaged), "f")
-
-
-def test_missing_pyarrow_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    data = packed({"force_N": [1.0]})
-    monkeypatch.setitem(sys.modules, "pyarrow", None)
-    with pytest.raises(FormatError, match=r"pip install 'elastogeo\[parquet\]'"):
-        read_parquet(data, "f")
 
 
 def test_what_could_not_be_read_back_is_not_written() -> None:

@@ -270,7 +270,9 @@ def _tracks(log: Log, uses: Sequence[ChannelUse], clock: Clock, report: list[str
     tracks = []
     for use, channel in others:
         where = f"{log.source}, channel {channel.name!r}"
-        moments = channel.time if channel.time is not None else _made(len(channel.values), own, clock, where)
+        moments = channel.time
+        if moments is None:
+            moments = _made(len(channel.values), own, _counts(log), clock, where)
         values = to_internal(channel.values, use.unit)
         there = np.isfinite(values) & np.isfinite(moments)
         if there.sum() < 2:
@@ -293,7 +295,15 @@ def _tracks(log: Log, uses: Sequence[ChannelUse], clock: Clock, report: list[str
     return tracks
 
 
-def _made(count: int, own: Array | None, clock: Clock, where: str) -> Array:
+def _counts(log: Log) -> Array | None:
+    """What the channel that counts the samples says, in sample times from zero."""
+    if not log.counter:
+        return None
+    counts = log.channels[log.counter].values
+    return np.asarray(counts - counts[0])
+
+
+def _made(count: int, own: Array | None, counts: Array | None, clock: Clock, where: str) -> Array:
     """The clock of a channel that has none, shape (count,) [s]."""
     if own is not None:
         if len(own) != count:
@@ -303,4 +313,6 @@ def _made(count: int, own: Array | None, clock: Clock, where: str) -> Array:
         raise FormatError(
             f"{where}: the file keeps no clock; say the sample time in the test file: [clock] sample_time_ms = 2"
         )
+    if counts is not None and len(counts) == count:
+        return counts * clock.sample_time
     return np.asarray(np.arange(count) * clock.sample_time, dtype=np.float64)

@@ -65,12 +65,15 @@ class Log:
         Where it came from, for messages.
     notes : tuple of str
         Sentences on what was repaired or left out in reading: an order put right, doubled samples, channels of text.
+    counter : str
+        Name of the channel that counts the samples of a file without a clock, in sample times; empty if none does.
     """
 
     channels: Mapping[str, Channel]
     metadata: Mapping[str, str]
     source: str
     notes: tuple[str, ...] = ()
+    counter: str = ""
 
     def __post_init__(self) -> None:
         """Refuse a log without a channel."""

@@ -4,7 +4,7 @@ A recording is a folder of `part-000001.parquet`, `part-000002.parquet`, ... Eac
 strings), `time` (timestamp in ns, UTC: the source's own), `value` (float64; NaN where the source gave no number), `status`
 (the source's code, uint32) and `filled` (bool: fetched afterwards from the source's history). The head, JSON under the
 key `elastogeo.recording/1` of the schema's metadata, says the server, the channels, the gaps marked in this part and those
-of earlier parts that its samples close. Needs `elastogeo[parquet]`.
+of earlier parts that its samples close.
 """
 
 from __future__ import annotations
@@ -189,7 +189,7 @@ def read_table(data: bytes, source: str) -> Any:
     Raises
     ------
     FormatError
-        If the file is cut off or damaged, or unpacks to far more than its size, or pyarrow is not installed.
+        If the file is cut off or damaged, or unpacks to far more than its size.
     """
     file, _ = opened_parquet(data, source)
     return unpacked(file, len(data), source, "values")

@@ -12,7 +12,6 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from elastogeo.formats import Gap
-from elastogeo.formats.text import pyarrow_modules
 from elastogeo.recording.backlog import Backlog
 from elastogeo.recording.filling import Filler
 from elastogeo.recording.gaps import Follower, with_restart
@@ -53,11 +52,10 @@ def record(
     InputError
         If the server cannot be reached at the very beginning of a recording, or the folder will not do.
     FormatError
-        If a part in the folder cannot be read, or pyarrow is not installed.
+        If a part in the folder cannot be read.
     OSError
         If the disk refuses the last part.
     """
-    pyarrow_modules()
     return asyncio.run(_record(plan, folder, watcher, duration, password))
 
 

@@ -87,7 +87,7 @@ def read_halsampler(data: bytes, source: str) -> Log:
             notes.append(f"{pin}: {int(bad.sum())} of {len(values)} samples have no finite number")
             values[bad] = np.nan
         channels[str(pin)] = Channel(str(pin), "", values)
-    return Log(channels, {}, source, tuple(notes))
+    return Log(channels, {}, source, tuple(notes), SAMPLE if numbers is not None else "")
 
 
 def _is_line(line: bytes) -> bool:

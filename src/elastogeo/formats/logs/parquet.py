@@ -5,7 +5,7 @@
 * Wide: a clock and a column of numbers for each channel, as data-frame libraries write it. Units in the headers are taken.
 
 The clock is a column of timestamps, or of numbers whose header says their unit (`time_s`, `Time [ms]`). Times are given from
-the first sample on; the metadata's `start` says when that was, if the file does. Needs `elastogeo[parquet]`.
+the first sample on; the metadata's `start` says when that was, if the file does.
 """
 
 from __future__ import annotations

@@ -19,13 +19,8 @@ from numpy.typing import ArrayLike
 from elastogeo.errors import FormatError
 from elastogeo.formats.run_files import RunFormat, only_run, register
 from elastogeo.formats.runs.arc_angles import check_sides, runs_of
-from elastogeo.formats.text.delimited import (
-    NUMBER,
-    guarded,
-    open_text,
-    read_heading,
-    split_cells,
-)
+from elastogeo.formats.text.delimited import NUMBER, guarded, utf8_text
+from elastogeo.formats.text.heading import read_heading
 from elastogeo.formats.text.readings import Readings
 from elastogeo.formats.text.table import Table, parse_headers
 from elastogeo.formats.text.units import QUANTITIES, split_unit
@@ -38,13 +33,12 @@ def can_read(head: bytes) -> bool:
     if head.startswith((b"PAR1", b"<", b"{")):
         return False
     try:
-        heading = read_heading(open_text(head, cut=True))
+        heading = read_heading(utf8_text(head, cut=True))
     except FormatError:
         return False
     if heading is None:
         return False
-    cells = split_cells(heading.first, heading.separator)
-    numeric = bool(cells) and all(NUMBER.fullmatch(cell.strip()) for cell in cells)
+    numeric = bool(heading.cells) and all(map(NUMBER.fullmatch, heading.cells))
     if not heading.headers:
         return numeric
     return any(_has_unit(header) or (numeric and header.strip().lower() in QUANTITIES) for header in heading.headers)
@@ -76,8 +70,8 @@ def read_csv_runs(data: bytes, source: str) -> tuple[Table, ...]:
         If anything in the file is not understood without doubt. Bad lines are counted and the first five shown.
     """
     try:
-        heading = read_heading(open_text(data))
-        stream = open_text(data)
+        text = utf8_text(data)
+        heading = read_heading(text)
     except FormatError as error:
         raise FormatError(f"{source}: {error}") from None
     if heading is None:
@@ -87,9 +81,9 @@ def read_csv_runs(data: bytes, source: str) -> tuple[Table, ...]:
         raise FormatError(f"{where}: numbers begin without a column header; write one above: 'angle_deg,radial_um'")
     columns = parse_headers(heading.headers, where)
     check_sides(columns, where)
-    readings = Readings(heading, columns)
-    readings.read(stream)
-    return runs_of(readings.table(source, ended=data[-2:].rstrip(b"\0")[-1:] in (b"\n", b"\r")))
+    readings = Readings(text, heading, columns)
+    readings.read()
+    return runs_of(readings.table(source, ended=text.endswith(b"\n")))
 
 
 def write_csv(columns: Mapping[str, ArrayLike], metadata: Mapping[str, str]) -> bytes:

@@ -1,4 +1,4 @@
-"""Parquet: column names carry their units as in delimited text; metadata is the schema's. Needs `elastogeo[parquet]`."""
+"""Parquet: column names carry their units as in delimited text; metadata is the schema's."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def read_parquet(data: bytes, source: str) -> Table:
     ------
     FormatError
         If the file is cut off or damaged, a column is not of numbers or has no unit, a reading is missing or not
-        finite, the file unpacks to far more than its size, or pyarrow is not installed.
+        finite, or the file unpacks to far more than its size.
     """
     file, schema = opened_parquet(data, source)
     metadata = {_text(key): _text(value) for key, value in (schema.metadata or {}).items()}
@@ -71,7 +71,7 @@ def write_parquet(columns: Mapping[str, ArrayLike], metadata: Mapping[str, str])
     Raises
     ------
     FormatError
-        If headers or columns could not be read back, or pyarrow is not installed.
+        If headers or columns could not be read back.
     """
     parsed = parse_headers(list(columns), "columns to write")
     arrays = {c.header: np.asarray(columns[c.header], dtype=np.float64) for c in parsed}

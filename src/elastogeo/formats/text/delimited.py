@@ -1,13 +1,10 @@
-"""Delimited text up to its column header: encoding, comments, metadata lines, separator, quoted cells."""
+"""Delimited text, line by line: encoding, comments, separators, quoted cells, numbers."""
 
 from __future__ import annotations
 
+import codecs
 import csv
-import io
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import TextIO
 
 from elastogeo.errors import FormatError
 
@@ -16,44 +13,14 @@ SEPARATORS = ";|,\t"
 #: A plain finite number, with either decimal mark.
 NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d+)?", re.ASCII)
 
-_BOMS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
+_UTF8, _UTF16 = b"\xef\xbb\xbf", (b"\xff\xfe", b"\xfe\xff")
+_CHUNK = 1 << 20
 _UTF8_SIGNS = ("\u00b5".encode(), "\u03bc".encode(), "\u00b0".encode())
-_PAIR = re.compile(r"([^\W\d][^:=,;|\t\"]{0,79})[:=](.*)", re.DOTALL)
-_DIRECTION = re.compile(r"cc?w|(counter|anti)?[- ]?clockwise|g0?[23]", re.IGNORECASE)
-_KEY = re.compile(r"[^\W\d][^:=,;|\t\"]{0,79}")
-_NUMBERS = re.compile(r"[-+.,\d\"][-+\d.,;|\s\"eE]*")
-_HEADER_WORD = re.compile(r"\"[^\"]*\"|[^\s\[(]+(?:\s*(?:\[[^\[\]]{0,20}\]|\([^()]{0,20}\)))?")
 _WORD = re.compile(r"\"[^\"]*\"|\S+")
 
 
-@dataclass(frozen=True, slots=True)
-class Heading:
-    """What stands above the numbers of a delimited text.
-
-    Attributes
-    ----------
-    headers : tuple of str
-        Column headers as written, without quotes; empty if the numbers begin without any.
-    line : int
-        Number of the header's line, from 1.
-    separator : str or None
-        What separates cells; None for runs of blanks.
-    metadata : dict of str to str
-        The `key: value` and `key = value` lines, and lines of cells that say one number or a direction (`Radius;150;mm`
-        under the key `Radius [mm]`); several lines of one key are joined by line ends.
-    first : str
-        The first line of numbers; empty if there is none.
-    """
-
-    headers: tuple[str, ...]
-    line: int
-    separator: str | None
-    metadata: dict[str, str]
-    first: str
-
-
-def open_text(data: bytes, *, cut: bool = False) -> TextIO:
-    r"""Open bytes as lines that end in `\n`: UTF-8, UTF-16 with a byte order mark, or else Latin-1.
+def utf8_text(data: bytes, *, cut: bool = False) -> bytes:
+    r"""Bytes of a text as UTF-8 with lines that end in `\n`: from UTF-8, UTF-16 with a byte order mark, or else Latin-1.
 
     Parameters
     ----------
@@ -67,21 +34,41 @@ def open_text(data: bytes, *, cut: bool = False) -> TextIO:
     FormatError
         If the bytes are not text.
     """
-    encoding = next((name for bom, name in _BOMS if data.startswith(bom)), "utf-8")
-    try:
-        text = data.decode(encoding, "ignore" if cut and encoding == "utf-16" else "strict")
-    except UnicodeDecodeError as error:
-        if encoding == "utf-16":
+    if data.startswith(_UTF16):
+        try:
+            data = data.decode("utf-16", "ignore" if cut else "strict").encode()
+        except UnicodeDecodeError as error:
             raise FormatError(f"the text is cut off or damaged at byte {error.start}; copy or export it again") from None
-        if not (cut and error.start > len(data) - 4):
-            encoding = "latin-1"
-            if any(sign in data for sign in _UTF8_SIGNS):
-                raise FormatError(f"byte {error.start} is not UTF-8, but the rest is; correct it there") from None
-        text = ""
-    if "\0" in text or (encoding == "latin-1" and b"\0" in data):
+    elif not data.isascii():
+        data = _utf8(data, cut)
+    if b"\0" in data:
         raise FormatError("the file has zero bytes, so it is not text; export it as UTF-8 text")
-    errors = "ignore" if cut else "strict"
-    return io.TextIOWrapper(io.BytesIO(data), encoding=encoding, errors=errors, newline=None)
+    if b"\r" in data:
+        data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    return data
+
+
+def _utf8(data: bytes, cut: bool) -> bytes:
+    """Bytes above ASCII as UTF-8, without a byte order mark."""
+    marked = len(_UTF8) if data.startswith(_UTF8) else 0
+    data = data[marked:]
+    decoder = codecs.getincrementaldecoder("utf-8")()
+    try:
+        for at in range(0, len(data), _CHUNK):
+            decoder.decode(data[at : at + _CHUNK])
+        decoder.decode(b"", final=True)
+    except UnicodeDecodeError:
+        pass
+    else:
+        return data
+    try:
+        data.decode()
+    except UnicodeDecodeError as error:
+        if cut and error.start > len(data) - 4:
+            return data[: error.start]
+        if any(sign in data for sign in _UTF8_SIGNS):
+            raise FormatError(f"byte {error.start + marked} is not UTF-8, but the rest is; correct it there") from None
+    return data.decode("latin-1").encode()
 
 
 def comment_text(line: str, separator: str | None) -> str | None:
@@ -99,40 +86,6 @@ def comment_text(line: str, separator: str | None) -> str | None:
     if line.startswith(";") and separator != ";" and ";" not in line[1:]:
         return line[1:].strip()
     return None
-
-
-def read_heading(stream: TextIO) -> Heading | None:
-    """Read to the first line of numbers; None if the text ends before any header.
-
-    Raises
-    ------
-    FormatError
-        If a line is longer than `MAX_LINE` characters.
-    """
-    pairs: dict[str, list[str]] = {}
-    remark = (0, "")
-    lines = _significant(stream)
-    for number, text in lines:
-        comment = comment_text(text, None)
-        pair = _pair(text if comment is None else comment)
-        if pair:
-            pairs.setdefault(pair[0], []).append(pair[1])
-        elif comment is None:
-            break
-        elif comment:
-            remark = (number, comment)
-    else:
-        return None
-    metadata = {key: "\n".join(values) for key, values in pairs.items()}
-    if not _NUMBERS.fullmatch(text):
-        first = next((t for _, t in lines if comment_text(t, ";" if ";" in text else None) is None), "")
-        separator = _separator(text, first)
-        return Heading(_headers(text, separator), number, separator, metadata, first)
-    separator = _separator(remark[1], text)
-    headers = _headers(remark[1], separator)
-    if remark[0] == 0 or len(headers) != len(split_cells(text, separator)):
-        return Heading((), number, None, metadata, text)
-    return Heading(headers, remark[0], separator, metadata, text)
 
 
 def split_cells(line: str, separator: str | None) -> list[str]:
@@ -161,45 +114,10 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _unguarded(value: str) -> str:
+def unguarded(value: str) -> str:
+    """Take that apostrophe away again."""
     return value[1:] if value.startswith("'") and _is_formula(value) else value
 
 
 def _is_formula(value: str) -> bool:
     return value.lstrip("'").startswith(("=", "+", "-", "@")) and not _is_number(value)
-
-
-def _pair(text: str) -> tuple[str, str] | None:
-    """Key and value of a line that says something about the run; None for any other line."""
-    pair = _PAIR.match(text)
-    if pair:
-        return pair[1].strip(), _unguarded(pair[2].strip())
-    for separator in SEPARATORS:
-        cells = [cell.strip() for cell in split_cells(text.rstrip(SEPARATORS), separator)] if separator in text else []
-        if len(cells) not in (2, 3) or not _KEY.fullmatch(cells[0]):
-            continue
-        if NUMBER.fullmatch(cells[1]) or ("direction" in cells[0].lower() and _DIRECTION.fullmatch(cells[1])):
-            unit = f" [{cells[2]}]" if len(cells) == 3 else ""
-            return f"{cells[0]}{unit}", cells[1]
-    return None
-
-
-def _significant(stream: TextIO) -> Iterator[tuple[int, str]]:
-    for number, line in enumerate(stream, 1):
-        if len(line) > MAX_LINE:
-            raise FormatError(f"line {number} is longer than {MAX_LINE} characters; a run file has one reading a line")
-        text = line.strip()
-        if text:
-            yield number, text
-
-
-def _separator(header: str, first: str) -> str | None:
-    present = [s for s in SEPARATORS if len(split_cells(header, s)) > 1]
-    agree = (s for s in present if len(split_cells(header, s)) == len(split_cells(first, s)))
-    return next(agree, present[0] if present else None)
-
-
-def _headers(line: str, separator: str | None) -> tuple[str, ...]:
-    if separator is None:
-        return tuple(word.strip('"') for word in _HEADER_WORD.findall(line))
-    return tuple(cell.strip() for cell in split_cells(line, separator))

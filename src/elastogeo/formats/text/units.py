@@ -110,6 +110,11 @@ UNITS: Mapping[str, Unit] = MappingProxyType(
     }
 )
 
+#: Units of a clock in a second, in the spellings of data loggers.
+PER_SECOND: Mapping[str, float] = MappingProxyType(
+    {"s": 1.0, "sec": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "μs": 1e6, "ns": 1e9, "min": 1 / 60}
+)
+
 _POSITION = ("length", "angle")
 _VELOCITY = ("feed", "angular rate")
 #: The dimensions that a quantity of this name may have; a name that is not here may have any unit, or none.
