@@ -1,5 +1,6 @@
 """A test on disk: simulated, written, read back, identified; and what is refused."""
 
+import hashlib
 import shutil
 import subprocess
 import sys
@@ -52,6 +53,23 @@ def test_parquet_runs_are_read_like_csv_runs(folder):
         write_runs(place, test, truth.seed)
     for one, two in zip(read_test(folder).runs, read_test(other).runs, strict=True):
         np.testing.assert_array_equal(one.columns["radial"], two.columns["radial"])
+
+
+def test_simulated_runs_carry_their_mark_and_every_run_its_hash(folder):
+    """The mark stands in the files: it is there for a test that does not say that its runs are simulated."""
+    test, truth = simulated(folder)
+    written = write_runs(folder, test, truth.seed)
+    assert 'simulated = "' not in (folder / "test.toml").read_text().replace("# simulated", "")
+    back = read_test(folder)
+    assert back.simulated == "elastogeo, seed 1"
+    assert [run.simulated for run in back.runs] == ["elastogeo, seed 1"] * 4
+    assert [run.file for run in back.runs] == [f"runs/{run.name}.csv" for run in back.runs]
+    assert [run.sha256 for run in back.runs] == [hashlib.sha256(path.read_bytes()).hexdigest() for path in written]
+    measured = written[0].read_text().splitlines(keepends=True)
+    written[0].write_text("".join(line for line in measured if "simulated" not in line))
+    mixed = read_test(folder)
+    assert mixed.runs[0].simulated == ""
+    assert mixed.simulated == "elastogeo, seed 1"
 
 
 def test_a_recorded_run_is_never_overwritten(folder):
@@ -132,7 +150,7 @@ def with_logs(folder, text=LOG, more="", runs=""):
     (folder / "runs").mkdir()
     names = ("36N-1", "36N-2", "742N-1", "742N-2")
     for name in names:
-        (folder / "runs" / f"{name}.csv").write_text(text)
+        (folder / "runs" / f"{name}.csv").write_text(text.replace(",run\n", f",{name}\n"))
     document = (folder / "test.toml").read_text().replace('sense = "ccw"', f'sense = "ccw"\n{runs}')
     (folder / "test.toml").write_text(document + more)
     return folder

@@ -31,6 +31,7 @@ from elastogeo.formats.recording_files import (
 )
 from elastogeo.formats.run_files import RunFormat, read_run, run_formats
 from elastogeo.formats.text.table import Table
+from elastogeo.formats.text.whole_files import write_whole
 
 __all__ = [
     "SCHEMA",
@@ -77,4 +78,5 @@ __all__ = [
     "simulate",
     "standing_gaps",
     "write_runs",
+    "write_whole",
 ]

@@ -1,7 +1,9 @@
 """Instruments and tests, made into a table of observations. Stands on `drive`, `machine`, `estimate` and `errors`."""
 
+from elastogeo.observe.about import About
 from elastogeo.observe.bars.ball_bar import LoadedBallBar
 from elastogeo.observe.circle import PLANES, Circle, plane_directions
+from elastogeo.observe.contradictions import check_runs, turning
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
 from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
@@ -17,6 +19,7 @@ from elastogeo.observe.static_loads.static_force import StaticForce
 __all__ = [
     "PLANES",
     "THESIS_CALIBRATION",
+    "About",
     "BallRoller",
     "Calibration",
     "Circle",
@@ -37,6 +40,7 @@ __all__ = [
     "Setup",
     "StaticForce",
     "check_observations",
+    "check_runs",
     "check_sees_twist",
     "force_from_pressure",
     "instrument",
@@ -45,4 +49,5 @@ __all__ = [
     "plane_directions",
     "sensitivities",
     "sensor_twist",
+    "turning",
 ]

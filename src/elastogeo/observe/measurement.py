@@ -12,6 +12,7 @@ import numpy as np
 from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
 from elastogeo.machine import Array, Force, Forces, Length, Machine, Pressure
+from elastogeo.observe.about import About
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.observations import Observations
 
@@ -37,6 +38,12 @@ class Run(ByValue):
         Counts the runs of one level, from 1.
     notes : tuple of str
         What was done to its recording before it became columns: sentences for the reader of the result.
+    file : str
+        The file it was read from, as the test names it; empty if it was read from none.
+    sha256 : str
+        Of that file's bytes, in hexadecimal digits.
+    simulated : str
+        What the file says of the simulation that made it; empty if it was measured.
     """
 
     name: str
@@ -47,6 +54,9 @@ class Run(ByValue):
     sense: int = 1
     repeat: int = 1
     notes: tuple[str, ...] = ()
+    file: str = ""
+    sha256: str = ""
+    simulated: str = ""
 
     def __repr__(self) -> str:
         readings = max((len(column) for column in self.columns.values()), default=0)
@@ -160,6 +170,8 @@ class MachineTest(ByValue):
         Systematic influences on the readings.
     simulated : str
         From what the readings are simulated, in words; empty if they were measured.
+    about : About
+        Who, when, with what.
     """
 
     name: str
@@ -170,6 +182,7 @@ class MachineTest(ByValue):
     resolution: float | None = None
     influences: tuple[KnownInfluence, ...] = ()
     simulated: str = ""
+    about: About = field(default_factory=About)
 
     def __post_init__(self) -> None:
         """Refuse a test without runs, or with two runs of one name."""

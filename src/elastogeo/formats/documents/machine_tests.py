@@ -16,10 +16,11 @@ from elastogeo.formats.documents.machines import find_machine
 from elastogeo.formats.log_files import log_formats, read_log
 from elastogeo.formats.run_files import read_run, run_formats
 from elastogeo.formats.text.by_content import HEAD
+from elastogeo.formats.text.fingerprint import sha256_of
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.machine import Force, Length, Pressure, Time
-from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, instrument_named
+from elastogeo.observe import About, KnownInfluence, MachineTest, Question, Run, check_runs, instrument_named, turning
 
 SCHEMA = "elastogeo.test/1"
 FILE_NAME = "test.toml"
@@ -70,6 +71,7 @@ class TestDocument:
     simulated: str = ""
     channels: tuple[ChannelUse, ...] = ()
     clock: Clock = field(default_factory=Clock)
+    about: About = field(default_factory=About)
 
 
 def read_test(
@@ -101,15 +103,19 @@ def read_test(
     """
     file, document = read_test_document(Path(path))
     read = full_turn(planned) if planned and read is None else read
+    runs = tuple(_run(entry, _table(document, entry, file.parent, read), file.parent) for entry in document.runs)
+    if read is None:
+        _check(runs, file)
     return MachineTest(
         name=document.name,
         machine=find_machine(document.machine, file.parent),
         setup=build(instrument_named(document.instrument), {**document.setup, **(setup or {})}, f"{file}, setup"),
-        runs=tuple(_run(entry, _table(document, entry, file.parent, read)) for entry in document.runs),
+        runs=runs,
         question=document.question,
         resolution=document.resolution,
         influences=document.influences,
-        simulated=document.simulated,
+        simulated=document.simulated or ", ".join(dict.fromkeys(run.simulated for run in runs if run.simulated)),
+        about=document.about,
     )
 
 
@@ -174,9 +180,17 @@ def _is_only_log(path: Path) -> bool:
     return any(known.can_read(head) for known in log_formats().values())
 
 
-def _run(document: RunDocument, table: Table) -> Run:
+def _check(runs: tuple[Run, ...], file: Path) -> None:
+    try:
+        check_runs(runs)
+    except InputError as error:
+        raise InputError(f"{file}: {error}") from None
+
+
+def _run(document: RunDocument, table: Table, folder: Path) -> Run:
     said, _, number = document.file.partition("#")
-    sense = document.sense or table.metadata.get("direction", "ccw").lower()
+    falling = "angle" in table.columns and turning(table.columns["angle"]) < 0
+    sense = document.sense or table.metadata.get("direction", "cw" if falling else "ccw").lower()
     if sense != table.metadata.get("direction", sense).lower():
         raise FormatError(
             f"{table.source}: the file says that the run went {table.metadata['direction']}, the test says {sense}; "
@@ -191,4 +205,13 @@ def _run(document: RunDocument, table: Table) -> Run:
         sense=_SENSES[sense],
         repeat=document.repeat,
         notes=tuple(table.metadata.get("clock", "").splitlines()),
+        file=document.file,
+        sha256=_hash(folder, document.file),
+        simulated=table.metadata.get("simulated", ""),
     )
+
+
+def _hash(folder: Path, name: str) -> str:
+    """Of the file of a run, of which `name#2` is the second run; empty if there is none yet."""
+    path = folder / name if (folder / name).exists() else folder / name.partition("#")[0]
+    return sha256_of(path) if path.exists() else ""

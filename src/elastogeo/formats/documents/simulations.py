@@ -18,6 +18,7 @@ from elastogeo.formats.run_files import RunFormat, run_formats
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.formats.text.units import dimensions_of, from_internal
+from elastogeo.formats.text.whole_files import write_whole
 from elastogeo.machine import Angle, Array
 from elastogeo.observe import Imperfection, MachineTest, Run
 
@@ -110,7 +111,7 @@ def write_runs(path: Path, test: MachineTest, seed: int) -> tuple[Path, ...]:
     Raises
     ------
     FormatError
-        If one of the files is there already: nothing is written then. Or if its ending is that of no writable format.
+        If one of the files is there already, cannot be written, or ends like no writable format: nothing is written then.
     """
     file, document = read_test_document(path)
     targets = [file.parent / run.file for run in document.runs]
@@ -118,12 +119,7 @@ def write_runs(path: Path, test: MachineTest, seed: int) -> tuple[Path, ...]:
     if there:
         raise FormatError(f"{there[0]} is there already, and {len(there) - 1} more; a recorded run is never overwritten")
     contents = [_content(run, _format_of(target), seed) for run, target in zip(test.runs, targets, strict=True)]
-    for target, content in zip(targets, contents, strict=True):
-        target.parent.mkdir(parents=True, exist_ok=True)
-        partial = target.with_name(target.name + ".part")
-        partial.write_bytes(content)
-        partial.replace(target)
-    return tuple(targets)
+    return write_whole(dict(zip(targets, contents, strict=True)))
 
 
 def _format_of(target: Path) -> RunFormat:

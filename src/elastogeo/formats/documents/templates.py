@@ -8,6 +8,7 @@ from pathlib import Path
 from elastogeo.errors import FormatError
 from elastogeo.formats.documents.machine_tests import FILE_NAME
 from elastogeo.formats.documents.machines import find_machine
+from elastogeo.formats.text.whole_files import write_whole
 
 _TEST = """\
 schema = "elastogeo.test/1"
@@ -99,9 +100,7 @@ def new_test(
         for force in sorted(forces)
         for repeat in range(1, repeats + 1)
     )
-    folder.mkdir(parents=True)
     name = machine if not machine.endswith(".toml") else str(Path(machine).resolve())
     text = _TEST.format(machine=name, centre=centre, reference=min(forces)) + runs
-    (folder / FILE_NAME).write_text(text, encoding="utf-8")
-    (folder / "simulation.toml").write_text(_SIMULATION, encoding="utf-8")
+    write_whole({folder / FILE_NAME: text.encode(), folder / "simulation.toml": _SIMULATION.encode()})
     return folder / FILE_NAME

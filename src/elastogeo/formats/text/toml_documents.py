@@ -9,6 +9,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Mapping
 from dataclasses import MISSING, fields, is_dataclass
+from datetime import date
 from difflib import get_close_matches
 from pathlib import Path
 from types import NoneType, UnionType
@@ -206,6 +207,9 @@ def _numeric(value: Any) -> bool:
 
 
 def _as_tuples(value: Any) -> Any:
+    """A value as the house holds it: lists become tuples, a date of TOML its text."""
+    if isinstance(value, date):
+        return value.isoformat()
     return tuple(map(_as_tuples, value)) if isinstance(value, list) else value
 
 
