@@ -87,16 +87,16 @@ def test_what_falls_short_is_positive_on_either_branch(found: tuple[str, dict[st
     assert values["T_X1"] == pytest.approx(LAG["X"] - LAG["Y"], abs=1e-6), topology
 
 
-def test_the_effect_says_the_same_of_an_error_motion_on_either_branch(found: tuple[str, dict[str, float]]) -> None:
+def test_the_sign_says_the_same_of_an_error_motion_on_either_branch(found: tuple[str, dict[str, float]]) -> None:
     """A carriage that holds the workpiece has the opposite error motion for the same fault; its words are the same."""
     topology, values = found
     sources = catalogue(Machine(topology, parse_topology(topology)))
     (squareness,) = (name for name in values if name.startswith("E_C("))
     said = {}
     for name in ("E_XX1", "E_YY1", "E_YX2", "E_XY2", squareness):
-        effect = sources[name].effect
-        assert effect is not None
-        said[effect.kind, "" if effect.kind == "squareness" else effect.axis] = effect.sign * values[name]
+        sign = sources[name].sign
+        assert sign is not None
+        said[sign.kind, "" if sign.kind == "squareness" else sign.axis] = sign.factor * values[name]
     assert said["gain", "X"] == pytest.approx(LONG["X"], abs=2e-7), topology
     assert said["gain", "Y"] == pytest.approx(LONG["Y"], abs=2e-7), topology
     assert said["bow", "X"] == pytest.approx(BENT["X"], abs=1e-9), topology

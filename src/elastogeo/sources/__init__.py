@@ -14,15 +14,15 @@ from elastogeo.sources.response import (
 )
 from elastogeo.sources.simulate import parameter_values, simulate
 from elastogeo.sources.situation import Situation
-from elastogeo.sources.source import Driver, Effect, Source, twist_unit
+from elastogeo.sources.source import Driver, Sign, Source, twist_unit
 from elastogeo.sources.volumetric import NODES
 
 __all__ = [
     "NODES",
     "PRESETS",
     "Driver",
-    "Effect",
     "JointLoad",
+    "Sign",
     "Situation",
     "Source",
     "catalogue",

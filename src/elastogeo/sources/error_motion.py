@@ -16,7 +16,7 @@ import numpy as np
 from elastogeo.machine import COMPONENTS, SPINDLE, Array, Joint, Machine
 from elastogeo.sources.families import family, named
 from elastogeo.sources.situation import Situation
-from elastogeo.sources.source import Effect, Source, twist_unit
+from elastogeo.sources.source import Sign, Source, twist_unit
 
 LISTED_DEGREES = (1, 2, 3)
 LISTED_ORDERS = (1, 2)
@@ -82,17 +82,17 @@ def _polynomial(machine: Machine, joint: Joint, d: int, degree: int) -> Source:
         component=d,
         driver=CommandPower(joint.name, degree),
         meaning=f"{kind_of_motion(joint, d)} of {joint.name}, degree {degree}",
-        effect=_effect(machine, joint, d, degree),
+        sign=_sign(machine, joint, d, degree),
     )
 
 
-def _effect(machine: Machine, joint: Joint, d: int, degree: int) -> Effect | None:
+def _sign(machine: Machine, joint: Joint, d: int, degree: int) -> Sign | None:
     """An error motion is that of the carriage: where it carries the workpiece, the tool is off the other way."""
-    sign = 1.0 if machine.in_tool_branch(joint.name) else -1.0
+    factor = 1.0 if machine.in_tool_branch(joint.name) else -1.0
     if degree == 1 and d == joint.direction + 3 * joint.is_rotary:
-        return Effect("gain", joint.name, sign=sign)
+        return Sign("gain", joint.name, factor=factor)
     if degree == 2 and d < 3 and not joint.is_rotary and d != joint.direction:
-        return Effect("bow", joint.name, COMPONENTS[d], sign)
+        return Sign("bow", joint.name, COMPONENTS[d], factor)
     return None
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from elastogeo.machine import COMPONENTS, Machine
 from elastogeo.sources.families import family
 from elastogeo.sources.situation import Situation
-from elastogeo.sources.source import Effect, Source, twist_unit
+from elastogeo.sources.source import Sign, Source, twist_unit
 
 
 def constant(_: Situation) -> float:
@@ -34,11 +34,11 @@ def location_errors(machine: Machine) -> Iterator[Source]:
                     driver=constant,
                     meaning=f"{'orientation' if d >= 3 else 'position'} error ({letter}) of {axis} "
                     f"relative to {before or 'the foundation'}",
-                    effect=_squareness(machine, axis, beside, d),
+                    sign=_squareness(machine, axis, beside, d),
                 )
 
 
-def _squareness(machine: Machine, axis: str, beside: str, d: int) -> Effect | None:
+def _squareness(machine: Machine, axis: str, beside: str, d: int) -> Sign | None:
     """The squareness that a rotation of `axis` is, to the linear axis before it, or across the foundation from it.
 
     A rotation of the guide turns its direction; where it carries the workpiece, it turns the workpiece with the guide, which
@@ -49,4 +49,4 @@ def _squareness(machine: Machine, axis: str, beside: str, d: int) -> Effect | No
     one, other = (machine.joints[machine.index(name)] for name in (axis, beside))
     if one.is_rotary or other.is_rotary or {one.direction, other.direction, d - 3} != {0, 1, 2}:
         return None
-    return Effect("squareness", axis, beside, 1.0 if (d - 3 + 1) % 3 == one.direction else -1.0)
+    return Sign("squareness", axis, beside, 1.0 if (d - 3 + 1) % 3 == one.direction else -1.0)

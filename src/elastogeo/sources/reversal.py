@@ -16,7 +16,7 @@ import numpy as np
 from elastogeo.machine import COMPONENTS, Array, Joint, Machine
 from elastogeo.sources.families import family
 from elastogeo.sources.situation import Situation
-from elastogeo.sources.source import Effect, Source, twist_unit
+from elastogeo.sources.source import Sign, Source, twist_unit
 
 SPIKE_LENGTH = 0.1
 """Travel [mm or degrees] after a reversal in which its spike falls to 37 %."""
@@ -72,7 +72,7 @@ def reversal_errors(machine: Machine) -> Iterator[Source]:
             component=along,
             driver=AfterReversal(joint.name, np.deg2rad(SPIKE_LENGTH) if joint.is_rotary else SPIKE_LENGTH),
             meaning=f"reversal spike of {joint.name}",
-            effect=Effect("spike", joint.name),
+            sign=Sign("spike", joint.name),
         )
 
 
@@ -85,5 +85,5 @@ def _play(joint: Joint, d: int, along: int) -> Source:
         component=d,
         driver=Lag(joint.name),
         meaning=f"{kind} of {joint.name}",
-        effect=Effect("backlash", joint.name) if d == along else Effect("play", joint.name, COMPONENTS[d]),
+        sign=Sign("backlash", joint.name) if d == along else Sign("play", joint.name, COMPONENTS[d]),
     )

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from elastogeo.machine import Array, Machine
 from elastogeo.sources.families import family
 from elastogeo.sources.situation import Situation
-from elastogeo.sources.source import Effect, Source
+from elastogeo.sources.source import Sign, Source
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ def servo_errors(machine: Machine) -> Iterator[Source]:
     for joint in machine.joints:
         if joint.name == "S":
             continue
-        for order, unit, kind, effect in (
+        for order, unit, kind, sign in (
             (1, "s", "lag", "lag"),
             (2, "s^2", "error per acceleration", "acceleration"),
         ):
@@ -48,5 +48,5 @@ def servo_errors(machine: Machine) -> Iterator[Source]:
                     component=joint.direction + 3 * joint.is_rotary,
                     driver=Rate(joint.name, order),
                     meaning=f"servo {kind} of {joint.name}",
-                    effect=Effect(effect, joint.name),
+                    sign=Sign(sign, joint.name),
                 )

@@ -24,8 +24,8 @@ class Driver(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Effect:
-    """What a signed value means for its axis, as facts for a sentence: "X falls 8 um short when it reverses".
+class Sign:
+    """What the sign of a value means for the axis, as facts for a sentence: "X falls 8 um short when it reverses".
 
     Attributes
     ----------
@@ -37,14 +37,14 @@ class Effect:
         Its letter; all signs count along its own command, the motion of the tool relative to the workpiece.
     other : str
         The component letter of a play or a bow, the second axis of a squareness; empty for what acts along the axis.
-    sign : float
+    factor : float
         +1, or -1 where the parameter is positive for the opposite.
     """
 
     kind: str
     axis: str
     other: str = ""
-    sign: float = 1.0
+    factor: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ class Source:
         Which load component of its joint drives it, 0 to 5 for forces and moments about X Y Z; None if no load does.
     force_degree : float
         The power of the force with which its column grows: 1 for a compliance, 0 for geometry.
-    effect : Effect or None
+    sign : Sign or None
         What the sign of its parameter means for the axis, if that has a sentence.
     """
 
@@ -80,7 +80,7 @@ class Source:
     meaning: str
     load: int | None = None
     force_degree: float = 0.0
-    effect: Effect | None = None
+    sign: Sign | None = None
 
     @property
     def elastic(self) -> bool:

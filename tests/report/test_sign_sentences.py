@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from elastogeo.machine import Machine, parse_topology
-from elastogeo.report.effects import effect_sentence
+from elastogeo.report.signs import sign_sentence
 from elastogeo.sources import catalogue
 
 SAID = {
@@ -24,8 +24,8 @@ SAID = {
 @pytest.mark.parametrize(("name", "value"), SAID)
 def test_what_counts_along_the_command_has_one_sentence(topology: str, name: str, value: float) -> None:
     source = catalogue(Machine(topology, parse_topology(topology)))[name]
-    assert source.effect is not None
-    assert effect_sentence(source.effect, value, source.unit) == SAID[name, value]
+    assert source.sign is not None
+    assert sign_sentence(source.sign, value, source.unit) == SAID[name, value]
 
 
 @pytest.mark.parametrize(
@@ -44,13 +44,13 @@ def test_what_counts_along_the_command_has_one_sentence(topology: str, name: str
 )
 def test_an_error_motion_says_the_same_of_the_same_fault(topology: str, name: str, value: float, said: str) -> None:
     source = catalogue(Machine(topology, parse_topology(topology)))[name]
-    assert source.effect is not None
-    assert effect_sentence(source.effect, value, source.unit) == said
+    assert source.sign is not None
+    assert sign_sentence(source.sign, value, source.unit) == said
 
 
 def test_what_has_no_side_has_no_sentence() -> None:
     known = catalogue(Machine("wFYXt", parse_topology("wFYXt")))
-    assert all(known[name].effect is None for name in ("C_XXX", "E_Xt0", "E_R0", "E_XX3", "E_A(0Y)X"))
-    effect = known["B_XX"].effect
-    assert effect is not None
-    assert effect_sentence(effect, 0.0, "mm") == ""
+    assert all(known[name].sign is None for name in ("C_XXX", "E_Xt0", "E_R0", "E_XX3", "E_A(0Y)X"))
+    sign = known["B_XX"].sign
+    assert sign is not None
+    assert sign_sentence(sign, 0.0, "mm") == ""

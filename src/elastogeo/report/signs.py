@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from elastogeo.report.numbers import display_unit, significant
-from elastogeo.sources import Effect
+from elastogeo.sources import Sign
 
 _SENTENCES = {
     "gain": ("{axis} travels {size} too far", "{axis} travels {size} too short"),
@@ -26,17 +26,17 @@ _SENTENCES = {
         "{axis} overshoots by {size} while it accelerates",
     ),
 }
-_SHIFT = "{axis} shifts by {size} towards {sign}{other} when it turns back from + to -"
-_TURN = "{axis} turns by {size} about {sign}{other} when it turns back from + to -"
+_SHIFT = "{axis} shifts by {size} towards {way}{other} when it turns back from + to -"
+_TURN = "{axis} turns by {size} about {way}{other} when it turns back from + to -"
 _ABOUT = dict(zip("ABC", "XYZ", strict=True))
 
 
-def effect_sentence(effect: Effect, value: float, unit: str) -> str:
+def sign_sentence(sign: Sign, value: float, unit: str) -> str:
     """What a value says of its axis: `X falls 8.0 µm short when it reverses`.
 
     Parameters
     ----------
-    effect : Effect
+    sign : Sign
         Of the error source.
     value : float
         Of its parameter.
@@ -48,19 +48,19 @@ def effect_sentence(effect: Effect, value: float, unit: str) -> str:
     str
         Without a full stop; empty for a value of zero.
     """
-    positive = effect.sign * value > 0
+    positive = sign.factor * value > 0
     if not value:
         return ""
-    if effect.kind == "play":
-        sentence, other = (_TURN, _ABOUT[effect.other]) if effect.other in _ABOUT else (_SHIFT, effect.other.lower())
-        return sentence.format(axis=effect.axis, size=_size(value, unit), other=other, sign="+" if positive else "-")
-    sentence = _SENTENCES[effect.kind][0 if positive else 1]
-    return sentence.format(axis=effect.axis, other=_named(effect), size=_size(value, unit))
+    if sign.kind == "play":
+        sentence, other = (_TURN, _ABOUT[sign.other]) if sign.other in _ABOUT else (_SHIFT, sign.other.lower())
+        return sentence.format(axis=sign.axis, size=_size(value, unit), other=other, way="+" if positive else "-")
+    sentence = _SENTENCES[sign.kind][0 if positive else 1]
+    return sentence.format(axis=sign.axis, other=_named(sign), size=_size(value, unit))
 
 
-def _named(effect: Effect) -> str:
+def _named(sign: Sign) -> str:
     """A second axis by its letter, a direction in lower case."""
-    return effect.other if effect.kind == "squareness" else effect.other.lower()
+    return sign.other if sign.kind == "squareness" else sign.other.lower()
 
 
 def _size(value: float, unit: str) -> str:
