@@ -23,7 +23,7 @@ from elastogeo.identification import (
     with_question,
 )
 from elastogeo.machine import Array
-from elastogeo.observe import Imperfection, KnownInfluence, MachineTest
+from elastogeo.observe import Calibration, Imperfection, KnownInfluence, MachineTest
 from elastogeo.report import sentence_of
 from elastogeo.sources import simulate
 
@@ -66,6 +66,47 @@ def test(make_test: MakeTest) -> MachineTest:
     setup = replace(blank.setup, setup_deflection=0.00233)
     runs = tuple(replace(run, pressure=(run.force + 14) / 126) for run in blank.runs)
     return simulate(replace(blank, setup=setup, runs=runs), TRUTH, Imperfection(noise=1e-3), seed=3, exact=False)
+
+
+def test_an_uncertain_calibration_moves_the_estimate_as_the_calibration_itself_does(test: MachineTest) -> None:
+    """Each part of it, against an estimate with the calibration changed by that part; the load cell is a force scale."""
+    runs = tuple(replace(run, force=None) for run in test.runs)
+    gauge = Calibration((1.0, 6.0), (112.0, 742.0), (1.5, 2.5), -0.4, 12.0, relative=0.004, relative_degrees_of_freedom=30.0)
+    setup = replace(
+        test.setup, calibration=gauge, setup_deflection_uncertainty=5e-5, setup_deflection_degrees_of_freedom=8.0
+    )
+    stated = replace(test, runs=runs, setup=setup)
+    found = effects_of(stated, systems_of(stated))
+    assert [(e.influence.label, e.influence.degrees_of_freedom) for e in found] == [
+        *[("force calibration", 12.0)] * 2,
+        ("load cell", 30.0),
+        ("set-up deflection", 8.0),
+    ]
+    truth = np.array([[1.5**2, -0.4 * 1.5 * 2.5], [-0.4 * 1.5 * 2.5, 2.5**2]])
+    ends = np.array([[e.force for e in gauge.influences(p)[:2]] for p in gauge.pressure])
+    np.testing.assert_allclose(ends @ ends.T, truth, rtol=1e-12)
+    systems = systems_of(stated)
+    solution = solve(merged(systems.runs), list(TRUTH))
+    budget = uncertainty_budget(systems, solution, found)
+    sizes = {line.label: line.contribution for line in budget.lines[0]}
+
+    def with_gauge(**changes: object) -> Array:
+        return estimate(replace(stated, setup=replace(setup, **changes)))
+
+    def derivative(up: dict[str, object], down: dict[str, object]) -> float:
+        return float((with_gauge(**up)[0] - with_gauge(**down)[0]) / 2)
+
+    moved = [
+        derivative(*({"calibration": replace(gauge, force=tuple(np.add(gauge.force, h * ends[:, k])))} for h in (1.0, -1.0)))
+        for k in (0, 1)
+    ]
+    assert sizes["force calibration"] == pytest.approx(np.hypot(*moved), rel=1e-3)
+    scaled = derivative(
+        *({"calibration": replace(gauge, force=tuple(np.multiply(gauge.force, 1 + h)))} for h in (0.004, -0.004))
+    )
+    assert sizes["load cell"] == pytest.approx(abs(scaled), rel=1e-3)
+    bent = derivative(*({"setup_deflection": 0.00233 + h} for h in (5e-5, -5e-5)))
+    assert sizes["set-up deflection"] == pytest.approx(abs(bent), rel=1e-3)
 
 
 def estimate(test: MachineTest) -> Array:

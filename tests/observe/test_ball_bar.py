@@ -13,6 +13,7 @@ from elastogeo.errors import InputError, PathError
 from elastogeo.machine import Machine, parse_topology
 from elastogeo.observe import (
     PLANES,
+    THESIS_CALIBRATION,
     Calibration,
     Circle,
     LoadedBallBar,
@@ -40,6 +41,10 @@ def with_setup(test: MachineTest, **changes: object) -> MachineTest:
     return replace(test, setup=replace(test.setup, **changes))  # type: ignore[type-var]
 
 
+def calibrated(test: MachineTest) -> MachineTest:
+    return with_setup(test, calibration=THESIS_CALIBRATION)
+
+
 def test_the_bar_reads_and_pushes_along_itself(make_test: MakeTest) -> None:
     test = make_test("wFYXt", [364.0], angle=ANGLE)
     (observed,) = test.observations()
@@ -60,15 +65,30 @@ def test_clockwise_turns_the_velocity_alone(make_test: MakeTest) -> None:
 
 
 def test_force_is_that_of_the_run_or_of_its_pressure(make_test: MakeTest) -> None:
-    bar = make_test("wFYXt").setup
-    assert isinstance(bar, LoadedBallBar)
-    assert bar.force(run_at(force=99.0)) == 99.0
+    bare = make_test("wFYXt").setup
+    assert isinstance(bare, LoadedBallBar)
+    assert bare.force(run_at(force=99.0)) == 99.0
+    bar = replace(bare, calibration=THESIS_CALIBRATION)
     assert bar.force(run_at(pressure=3.0)) == pytest.approx(364.0)
-    assert bar.force(run_at(force=99.0, pressure=3.0)) == 99.0
+    assert bar.force(run_at(force=360.0, pressure=3.0)) == 360.0
+    with pytest.raises(InputError, match=r"run 'r1' gives 99 N and 3 bar, which is 364 N by the force calibration; correct"):
+        bar.force(run_at(force=99.0, pressure=3.0))
+    with pytest.raises(InputError, match=r"run 'r1' gives a pressure of 3 bar, and the test no force calibration; add"):
+        bare.force(run_at(pressure=3.0))
+    with pytest.raises(InputError, match=r"a pressure of 0\.1 bar gives a force of -1\.4 N by the force calibration"):
+        bar.force(run_at(pressure=0.1))
     other = replace(bar, calibration=Calibration((0.0, 10.0), (5.0, 1005.0)))
     assert other.force(run_at(pressure=3.0)) == pytest.approx(305.0)
     with pytest.raises(InputError, match="run 'r1' has neither a force nor a pressure; give force_N or pressure_bar"):
         bar.force(run_at())
+
+
+def test_a_bar_that_cannot_pull_has_no_negative_force(make_test: MakeTest) -> None:
+    bar = make_test("wFYXt").setup
+    assert isinstance(bar, LoadedBallBar)
+    with pytest.raises(InputError, match=r"run 'r1' has a force of -36 N, and a bar pushes its balls apart; give the size"):
+        bar.force(run_at(force=-36.0))
+    assert replace(bar, pulls=True).force(run_at(force=-36.0)) == -36.0
 
 
 def test_two_points_are_a_line_and_more_a_table() -> None:
@@ -99,7 +119,7 @@ def test_a_table_that_is_no_calibration_is_refused(pressure: tuple, force: tuple
 
 
 def test_the_posts_deflection_is_taken_off_as_in_eq_5_38(make_test: MakeTest) -> None:
-    plain = replace(make_test("wFXYZt", angle=ANGLE), runs=(run_at(pressure=4.0),))
+    plain = calibrated(replace(make_test("wFXYZt", angle=ANGLE), runs=(run_at(pressure=4.0),)))
     (raw,) = plain.observations()
     (corrected,) = with_setup(plain, setup_deflection=POST).observations()
     # in a horizontal plane the elevation is zero: 2.33 um/bar at every angle
@@ -114,7 +134,8 @@ def test_the_posts_deflection_is_taken_off_as_in_eq_5_38(make_test: MakeTest) ->
 @pytest.mark.parametrize("plane", ["XY", "YZ", ((1.0, 0.0, 1.0), (0.0, 1.0, 0.0))])
 @pytest.mark.parametrize("exact", [False, True])
 def test_simulation_puts_on_what_the_correction_takes_off(plane: object, exact: bool, make_test: MakeTest) -> None:
-    plain = replace(make_test("wFXYZt", angle=ANGLE, circle=Circle(150.0, plane)), runs=(run_at(pressure=4.0),))  # type: ignore[arg-type]
+    circle = Circle(150.0, plane)  # type: ignore[arg-type]
+    plain = calibrated(replace(make_test("wFXYZt", angle=ANGLE, circle=circle), runs=(run_at(pressure=4.0),)))
     corrected = with_setup(plain, setup_deflection=POST)
     truth = {"C_XXX": 5e-5, "C_YYY": 4e-5, "C_ZZZ": 3e-5}
     without, with_post = (simulate(test, truth, exact=exact) for test in (plain, corrected))
@@ -140,7 +161,7 @@ def test_a_run_without_a_column_is_refused(column: str, make_test: MakeTest) -> 
     test = make_test("wFYXt", [100.0])
     (run,) = test.runs
     kept = {name: values for name, values in run.columns.items() if name != column}
-    with pytest.raises(InputError, match=f"run '100 N, 1' lacks the column {column}; a loaded ball bar needs"):
+    with pytest.raises(InputError, match=f"run '100 N, 1' lacks the column {column}; a ball bar needs"):
         replace(test, runs=(replace(run, columns=kept),)).observations()
 
 

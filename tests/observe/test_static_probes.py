@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from elastogeo.errors import InputError, RankError
 from elastogeo.identification import identify
 from elastogeo.identification.static_tests.cartesian import cartesian_of
 from elastogeo.machine import Machine, loop_frames
-from elastogeo.observe import Imperfection, MachineTest, Question, Run
+from elastogeo.observe import THESIS_CALIBRATION, Imperfection, MachineTest, Question, Run
 from elastogeo.observe.static_loads.probes import DisplacementProbes
 from elastogeo.sources import select_sources, simulate
 
@@ -146,7 +147,9 @@ def test_a_pressure_gives_the_force(make_machine: MakeMachine) -> None:
     machine = make_machine("wCAYfXZt")
     test = turned_test(machine, (1.0, 0.0, 0.0))
     runs = (Run("1 bar", test.runs[0].columns, pressure=1.0),)
-    (observed,) = MachineTest("", machine, test.setup, runs).observations()
+    with pytest.raises(InputError, match="run '1 bar' gives a pressure of 1 bar, and the test no force calibration"):
+        MachineTest("", machine, test.setup, runs).observations()
+    (observed,) = MachineTest("", machine, replace(test.setup, calibration=THESIS_CALIBRATION), runs).observations()
     assert observed.force == pytest.approx(112.0)
 
 

@@ -4,6 +4,12 @@ Stands on `sources`, `observe`, `machine` and `errors`.
 """
 
 from elastogeo.formats.channels import ChannelUse, Clock, OnOneClock, on_one_clock
+from elastogeo.formats.documents.calibrations import (
+    CalibrationDocument,
+    DeflectionDocument,
+    calibration_text,
+    read_calibration,
+)
 from elastogeo.formats.documents.feed_drives import read_drives
 from elastogeo.formats.documents.machine_tests import example_test, full_turn, read_test
 from elastogeo.formats.documents.machines import find_machine, machines, read_machine, shipped_machines
@@ -35,9 +41,11 @@ from elastogeo.formats.text.whole_files import write_whole
 
 __all__ = [
     "SCHEMA",
+    "CalibrationDocument",
     "Channel",
     "ChannelUse",
     "Clock",
+    "DeflectionDocument",
     "Gap",
     "Inspected",
     "InspectedColumn",
@@ -50,6 +58,7 @@ __all__ = [
     "Samples",
     "Simulation",
     "Table",
+    "calibration_text",
     "encode_part",
     "example_test",
     "find_machine",
@@ -62,6 +71,7 @@ __all__ = [
     "part_files",
     "part_name",
     "poses_of",
+    "read_calibration",
     "read_drives",
     "read_head",
     "read_log",

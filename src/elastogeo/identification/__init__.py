@@ -1,6 +1,7 @@
 """From a test to a design matrix to parameters, with a verdict. Stands on all rooms below; knows no file, no figure."""
 
 from elastogeo.identification.budget import SCATTER, Agreement, Budget, BudgetLine, agreement, uncertainty_budget
+from elastogeo.identification.calibrations import ForceCalibration, SetupDeflection, calibrate_force, calibrate_setup
 from elastogeo.identification.change import SIGNIFICANT, Change, difference, local_change, run_dispersion
 from elastogeo.identification.check import Check
 from elastogeo.identification.explanation import Explanation, explain
@@ -72,6 +73,7 @@ __all__ = [
     "Effect",
     "Explanation",
     "Fault",
+    "ForceCalibration",
     "Harmonic",
     "Identification",
     "Level",
@@ -88,6 +90,7 @@ __all__ = [
     "Principal",
     "Reciprocity",
     "RunSystem",
+    "SetupDeflection",
     "StaticHysteresis",
     "StaticLine",
     "StaticResults",
@@ -101,6 +104,8 @@ __all__ = [
     "adjacent",
     "agreement",
     "branches_of",
+    "calibrate_force",
+    "calibrate_setup",
     "cartesian_compliance",
     "cartesian_from_vectors",
     "cartesian_of",

@@ -19,7 +19,7 @@ from elastogeo.errors import InputError
 from elastogeo.estimate import Influence
 from elastogeo.identification.systems import RunSystem, Systems, same_force
 from elastogeo.machine import Array, Machine
-from elastogeo.observe import KnownInfluence, MachineTest
+from elastogeo.observe import KnownInfluence, MachineTest, ObservedInfluence
 from elastogeo.sources import load_derivative
 
 FORM_ORDERS = (2, 3, 4, 5)
@@ -81,15 +81,30 @@ def _observed(machine: Machine, systems: Systems) -> Iterator[Effect]:
     """The effects of what is uncertain in the observations themselves."""
     for several in zip(*(run.observations.influences for run in systems.runs), strict=True):
         first = several[0]
+        loads = any(one.wrench.any() for one in several)
         yield Effect(
             Influence(first.label, first.standard_uncertainty, "normal", first.degrees_of_freedom),
-            np.zeros(len(systems.runs)),
-            tuple(-one.reading for one in several),
+            np.array([_stretch(run, one) for run, one in zip(systems.runs, several, strict=True)]),
+            tuple(-one.reading for one in several) if any(one.reading.any() for one in several) else None,
             tuple(
                 load_derivative(systems.sources, machine, run.observations, one.wrench)
                 for run, one in zip(systems.runs, several, strict=True)
-            ),
+            )
+            if loads
+            else None,
         )
+
+
+def _stretch(run: RunSystem, influence: ObservedInfluence) -> float:
+    """Relative change of the force of a run per unit of an influence quantity."""
+    if not influence.force:
+        return 0.0
+    if not run.observations.force:
+        raise InputError(
+            f"run {run.name!r} has no force by its calibration, whose uncertainty ({influence.label}) cannot be a part of "
+            f"it; leave the run out, or state no uncertainty of the calibration"
+        )
+    return influence.force / run.observations.force
 
 
 @effect("force-scale")

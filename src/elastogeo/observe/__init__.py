@@ -4,7 +4,7 @@ from elastogeo.observe.about import About
 from elastogeo.observe.bars.ball_bar import LoadedBallBar
 from elastogeo.observe.circle import PLANES, Circle, plane_directions
 from elastogeo.observe.contradictions import check_runs, turning
-from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
+from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, ForceInfluence, force_from_pressure
 from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
 from elastogeo.observe.measurement import KnownInfluence, MachineTest, Question, Run, Setup
@@ -24,6 +24,7 @@ __all__ = [
     "Calibration",
     "Circle",
     "DisplacementProbes",
+    "ForceInfluence",
     "Imperfection",
     "KnownInfluence",
     "LoadedBallBar",

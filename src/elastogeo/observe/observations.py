@@ -33,6 +33,9 @@ class ObservedInfluence:
         Change of the wrench per unit of the quantity.
     reading : array, shape (m,) [mm or rad]
         Change of the reading per unit of the quantity.
+    force : float [N]
+        Change of the force of the whole run per unit of the quantity: what changes the wrench in proportion stands here, and
+        not in `wrench`.
     """
 
     label: str
@@ -40,6 +43,7 @@ class ObservedInfluence:
     degrees_of_freedom: float
     wrench: Array
     reading: Array
+    force: float = 0.0
 
     def rows(self, part: slice) -> ObservedInfluence:
         """The same influence on a block of the readings."""

@@ -12,6 +12,7 @@ import numpy as np
 
 from elastogeo.errors import FormatError, InputError
 from elastogeo.formats.channels import ChannelUse, Clock, on_one_clock
+from elastogeo.formats.documents.calibrations import with_calibration
 from elastogeo.formats.documents.machines import find_machine
 from elastogeo.formats.log_files import log_formats, read_log
 from elastogeo.formats.run_files import read_run, run_formats
@@ -106,10 +107,11 @@ def read_test(
     runs = tuple(_run(entry, _table(document, entry, file.parent, read), file.parent) for entry in document.runs)
     if read is None:
         _check(runs, file)
+    entries = with_calibration({**document.setup, **(setup or {})}, file.parent)
     return MachineTest(
         name=document.name,
         machine=find_machine(document.machine, file.parent),
-        setup=build(instrument_named(document.instrument), {**document.setup, **(setup or {})}, f"{file}, setup"),
+        setup=build(instrument_named(document.instrument), entries, f"{file}, setup"),
         runs=runs,
         question=document.question,
         resolution=document.resolution,

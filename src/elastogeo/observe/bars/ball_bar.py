@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 
 from elastogeo.errors import InputError
 from elastogeo.machine import Array, Feed, LengthPerPressure, Machine, Point, follow
 from elastogeo.observe.circle import Circle
-from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
+from elastogeo.observe.force import Calibration, force_influences, force_of_run
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.measurement import Respond, Run
-from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
 
 MOST_TURNS = 10.0
 """Turns that a run may have."""
@@ -36,17 +37,26 @@ class LoadedBallBar:
         Speed of the tool ball along the circle.
     tool : tuple of 3 float or None [mm]
         Tool ball in the frame of the last tool-branch carriage; None for the machine's own tool point.
-    calibration : Calibration
-        Force against pressure.
+    calibration : Calibration or None
+        Force against pressure; None if every run gives its force.
     setup_deflection : float [mm/bar]
         Deflection of the workpiece ball's post per pressure (2.33 um/bar in the thesis); zero switches the correction off.
+    setup_deflection_uncertainty : float [mm/bar]
+        Its standard uncertainty.
+    setup_deflection_degrees_of_freedom : float
+        Of that uncertainty.
+    pulls : bool
+        Whether the bar can pull its balls together: only then may a force be negative.
     """
 
     circle: Circle
     feed: Feed
     tool: Point | None = None
-    calibration: Calibration = THESIS_CALIBRATION
+    calibration: Calibration | None = None
     setup_deflection: LengthPerPressure = 0.0
+    setup_deflection_uncertainty: LengthPerPressure = 0.0
+    setup_deflection_degrees_of_freedom: float = inf
+    pulls: bool = False
 
     @property
     def quantities(self) -> tuple[str, ...]:
@@ -92,6 +102,7 @@ class LoadedBallBar:
             tool=np.array(machine.tool) if tool is None else tool,
             workpiece=commands.ball,
             length=self.circle.radius,
+            influences=self._influences(run, direction),
         )
         check_observations(observations)
         _check_units(run, self.circle.radius)
@@ -118,13 +129,16 @@ class LoadedBallBar:
         Raises
         ------
         InputError
-            If the run has neither a force nor a pressure.
+            If the run has neither, a pressure without a calibration, a force and a pressure that do not agree, or a negative
+            force although the bar cannot pull.
         """
-        if run.force is not None:
-            return run.force
-        if run.pressure is None:
-            raise InputError(f"run {run.name!r} has neither a force nor a pressure; give force_N or pressure_bar")
-        return force_from_pressure(run.pressure, self.calibration)
+        force = force_of_run(run.name, run.force, run.pressure, self.calibration)
+        if force < 0 and not self.pulls:
+            raise InputError(
+                f"run {run.name!r} has a force of {force:g} N, and a bar pushes its balls apart; give the size of the "
+                f"force, or say pulls = true in [setup] if this bar can pull"
+            )
+        return force
 
     def deflection(self, run: Run, direction: Array) -> Array:
         """Deflection [mm] of the workpiece ball's post in a run, which the reading holds and the machine does not.
@@ -142,11 +156,20 @@ class LoadedBallBar:
             raise InputError(f"run {run.name!r} has no pressure, which the set-up deflection correction (Eq. 5.38) needs")
         return np.asarray(self.setup_deflection * run.pressure * (1.0 - direction[:, 2] ** 2))
 
+    def _influences(self, run: Run, direction: Array) -> tuple[ObservedInfluence, ...]:
+        """What is uncertain in the force and in the set-up's deflection, alike in all runs."""
+        found = force_influences(self.calibration, run.force, run.pressure, len(direction))
+        if not self.setup_deflection or not self.setup_deflection_uncertainty:
+            return found
+        per_unit = -self.deflection(run, direction) / self.setup_deflection
+        u, freedom = self.setup_deflection_uncertainty, self.setup_deflection_degrees_of_freedom
+        return (*found, ObservedInfluence("set-up deflection", u, freedom, np.zeros_like(direction), per_unit))
+
     def _angle(self, run: Run) -> Array:
         missing = [name for name in self.quantities if name not in run.columns]
         if missing:
             raise InputError(
-                f"run {run.name!r} lacks the column {', '.join(missing)}; a loaded ball bar needs angle_deg, radial_um"
+                f"run {run.name!r} lacks the column {', '.join(missing)}; a ball bar needs angle_deg, radial_um"
             )
         angles, readings = (len(run.columns[name]) for name in self.quantities)
         if angles != readings:

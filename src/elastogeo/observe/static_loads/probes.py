@@ -14,7 +14,7 @@ import numpy as np
 from elastogeo.errors import InputError
 from elastogeo.machine import Array, AxisCommands, Machine, Motion, Point, follow, loop_frames
 from elastogeo.observe.circle import Direction
-from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, force_from_pressure
+from elastogeo.observe.force import Calibration, force_influences, force_of_run
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.measurement import Respond, Run
@@ -62,7 +62,7 @@ class DisplacementProbes:
         the foundation.
     tool : tuple of 3 float or None [mm]
         Tool ball in the frame of the last tool-branch carriage; None for the machine's own tool point.
-    calibration : Calibration
+    calibration : Calibration or None
         Force against pressure, for runs that give a pressure.
     """
 
@@ -73,7 +73,7 @@ class DisplacementProbes:
     bar_in_workpiece: bool = True
     probes_in_workpiece: bool = True
     tool: Point | None = None
-    calibration: Calibration = THESIS_CALIBRATION
+    calibration: Calibration | None = None
 
     def __post_init__(self) -> None:
         """Refuse directions that are none."""
@@ -134,6 +134,7 @@ class DisplacementProbes:
             correction=np.zeros(sensors * len(angle)),
             tool=tool,
             workpiece=commands.ball,
+            influences=force_influences(self.calibration, run.force, run.pressure, sensors * len(angle)),
         )
         check_observations(observations)
         check_displacements(run, self.readings)
@@ -162,9 +163,9 @@ class DisplacementProbes:
         return Motion(still, still, still, turned, dict.fromkeys(turned, 0.0))
 
     def _level(self, run: Run) -> float | None:
-        if run.force is not None or run.pressure is None:
+        if run.pressure is None:
             return run.force
-        return force_from_pressure(run.pressure, self.calibration)
+        return force_of_run(run.name, run.force, run.pressure, self.calibration)
 
 
 def _repeated(rows: Array, times: int) -> Array:

@@ -1,0 +1,6 @@
+"""Calibrations of an instrument: force against pressure, deflection of the set-up. Stands on the room's ground, `observe`."""
+
+from elastogeo.identification.calibrations.force import ForceCalibration, calibrate_force
+from elastogeo.identification.calibrations.setup_deflection import SetupDeflection, calibrate_setup
+
+__all__ = ["ForceCalibration", "SetupDeflection", "calibrate_force", "calibrate_setup"]
