@@ -9,9 +9,11 @@ from pathlib import Path
 
 import pytest
 
+import elastogeo as eg
+
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
-PAGES = ("tutorial.md", "drive.md", "ball-roller.md")
+PAGES = ("tutorial.md", "drive.md", "ball-roller.md", "static.md")
 
 
 @pytest.mark.parametrize("page", PAGES)
@@ -29,6 +31,19 @@ def test_every_block_of_a_page_runs(page, tmp_path):
             done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
         assert done.returncode == 0, f"{code}\n{done.stdout}\n{done.stderr}"
         assert done.stdout, code
+
+
+def test_tutorials_use_the_public_face_only():
+    """What a page shows is what is promised: `import elastogeo as eg`, and no room behind it."""
+    pages = [ROOT / "README.md", *DOCS.glob("*.md")]
+    blocks = {page.name: re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL) for page in pages}
+    blocks["extending.md"] = []  # teaches the rooms
+    lines = [(page, line.strip()) for page, found in blocks.items() for block in found for line in block.splitlines()]
+    imports = [(page, line) for page, line in lines if re.match(r"(import|from) elastogeo", line)]
+    assert {page for page, _ in imports} >= {"tutorial.md", "drive.md", "static.md", "ball-roller.md"}
+    assert {line for _, line in imports} == {"import elastogeo as eg"}
+    used = {name for _, line in lines for name in re.findall(r"\beg\.(\w+)", line)}
+    assert used <= set(eg.__all__)
 
 
 def test_the_reference_of_the_command_line_is_that_of_the_commands():

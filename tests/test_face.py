@@ -172,3 +172,9 @@ def test_a_test_is_compared_as_it_is_and_a_result_is_not_asked_again(result: Ide
     assert all(difference.change == 0 for difference in found.differences)
     with pytest.raises(InputError, match="parameters cannot be asked of a result; ask the test"):
         eg.diagnose(result, parameters="ball-bar-xy")
+
+
+def test_a_check_prints_as_a_sentence_with_its_mark(result: Identification) -> None:
+    shown = {check.name: str(check) for check in result.verdict}
+    assert shown["identifiable"] == "  ok  identifiable: All 13 parameters are determined by the test."
+    assert shown["above resolution"].startswith("look  above resolution: E_C(0Y)X")

@@ -6,9 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from elastogeo.result import Part
 
-@dataclass(frozen=True, slots=True)
-class Check:
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Check(Part):
     """One check of a verdict.
 
     Attributes

@@ -38,6 +38,7 @@ from elastogeo.report.figures import save_figures
 from elastogeo.report.html import save_html
 from elastogeo.report.numbers import display_unit, value_with_uncertainty
 from elastogeo.report.pdf import save_pdf
+from elastogeo.report.sentences import sentence_of
 from elastogeo.report.static import save_static
 from elastogeo.report.stiffness import save_stiffness
 from elastogeo.report.text import combination, label, parameter_rows
@@ -68,10 +69,15 @@ _ROWS: Mapping[type, Callable[[dict[str, Any]], list[dict[str, Any]]]] = {
 }
 
 
+_MARKS = {True: "  ok", False: "look", None: "   ?"}
+
+
 class _Renderer:
     """What `elastogeo.result.Renderer` asks for."""
 
-    def line(self, shown: Parameter) -> str:
+    def line(self, shown: Parameter | Check) -> str:
+        if isinstance(shown, Check):
+            return f"{_MARKS[shown.passed]}  {shown.name}: {sentence_of(shown)}"
         unit = display_unit(shown.unit, max(map(abs, shown.interval)))
         half = (shown.interval[1] - shown.interval[0]) / 2
         value = value_with_uncertainty(shown.value * unit.factor, half * unit.factor)
