@@ -228,6 +228,7 @@ def _joined(records: Sequence[DriveRecord]) -> DriveRecord:
         acceleration=np.concatenate([record.acceleration for record in records]),
         effort=np.concatenate([record.effort for record in records]),
         disturbance=loads,
+        standing=None,  # the masks say which samples count
     )
 
 
