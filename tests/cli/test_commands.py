@@ -59,8 +59,8 @@ def test_identify_prints_the_contract_as_json_and_nothing_else(my_test, elastoge
         document["parameters"][0]
     )
     assert {"force_N", "readings", "rmse_um", "fitness_percent"} <= set(document["levels"][0])
-    assert document["rank"] == 6
-    assert document["columns"] == 18
+    assert document["rank"] == 11
+    assert document["columns"] == 23
     value = {p["name"]: p["value"] for p in document["parameters"]}
     assert value["C_XXX"] == pytest.approx(6e-5, rel=0.01)
 
@@ -119,11 +119,10 @@ def test_wrong_input_ends_with_2_and_one_clear_error(my_test, elastogeo, tmp_pat
 
 
 def test_what_the_data_do_not_support_ends_with_1(my_test, elastogeo):
-    file = my_test / "test.toml"
-    file.write_text(file.read_text().replace("reference_force_N = 36 ", "reference_force_N = 50 "))
-    refused(elastogeo("identify", my_test), 1, "the reference level 50 N cannot be taken off", "36, 742 N")
-    file.write_text(file.read_text().replace("reference_force_N = 50 ", "reference_force_N = 36 "))
-    refused(elastogeo("identify", my_test, "-p", "E_XX1"), 1, "E_XX1", "changes any reading")
+    asked = elastogeo("identify", my_test, "-p", "planar-xy", "--reference", "50")
+    refused(asked, 1, "the reference level 50 N cannot be taken off", "36, 742 N")
+    asked = elastogeo("identify", my_test, "-p", "E_XX1", "--reference", "36")
+    refused(asked, 1, "E_XX1", "changes any reading")
 
 
 def test_wrong_usage_ends_with_2(elastogeo):

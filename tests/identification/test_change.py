@@ -14,7 +14,6 @@ from elastogeo.errors import DegreesOfFreedomError, UnsupportedError
 from elastogeo.estimate import Solution, factor_blocks, solve, solve_by_run
 from elastogeo.identification import (
     Change,
-    RunSystem,
     Systems,
     adjacent,
     compare,
@@ -58,7 +57,7 @@ def with_readings(systems: Systems, readings: Array) -> Systems:
     for run, reading in zip(systems.runs, readings, strict=True):
         rows = run.rows.copy(order="F")
         rows[:, -1] = reading
-        runs.append(RunSystem(run.observations, run.force, rows, factor_blocks(run.factor.labels, [rows.copy(order="F")])))
+        runs.append(replace(run, rows=rows, factor=factor_blocks(run.factor.labels, [rows.copy(order="F")])))
     return replace(systems, runs=tuple(runs))
 
 

@@ -20,7 +20,6 @@ from scipy.signal import lfilter
 from elastogeo.errors import DegreesOfFreedomError
 from elastogeo.estimate import factor_blocks, repeatability, solve, solve_by_run
 from elastogeo.identification import (
-    RunSystem,
     Systems,
     agreement,
     confounding_of,
@@ -87,7 +86,7 @@ def with_readings(systems: Systems, readings: Array) -> Systems:
     for run, reading in zip(systems.runs, readings, strict=True):
         rows = run.rows.copy(order="F")
         rows[:, -1] = reading
-        runs.append(RunSystem(run.observations, run.force, rows, factor_blocks(run.factor.labels, [rows.copy(order="F")])))
+        runs.append(replace(run, rows=rows, factor=factor_blocks(run.factor.labels, [rows.copy(order="F")])))
     return replace(systems, runs=tuple(runs))
 
 

@@ -36,6 +36,7 @@ KEYS = {
     "local",
     "repeats",
     "minimum_norm",
+    "set_up",
     "verdict",
     "by_run",
     "local_change",

@@ -206,4 +206,4 @@ def test_a_question_may_be_asked_of_any_preset_again(make_test: MakeTest) -> Non
     for preset in ("planar-xy", "ball-bar-xy", "compliance"):
         asked = with_question(readings, [preset])
         assert [s.name for s in systems_of(asked).sources] == [s.name for s in select_sources(test.machine, [preset])]
-        assert np.array_equal(systems_of(asked).runs[0].reading, systems_of(readings).runs[0].reading)
+        assert np.array_equal(asked.observations()[0].reading, readings.observations()[0].reading)

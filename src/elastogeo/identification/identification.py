@@ -134,6 +134,7 @@ def _identified(test: MachineTest, systems: Systems, found: Confounding, known: 
         local=_adjacent_estimates(systems, found.retained),
         repeats=_repeats(systems, found.retained),
         patterns=_patterns(systems, found),
+        set_up={run.name: _set_up(run, systems.own, solution) for run in systems.runs if systems.own},
         rmse=rmse(np.concatenate([t.predicted for t in traces]), np.concatenate([t.measured for t in traces])),
         verdict=(),
     )
@@ -249,13 +250,23 @@ def systems_of(test: MachineTest) -> Systems:
     """The linear systems that a test and its question amount to."""
     sources = sources_of(test)
     observations = chosen_observations(test.observations(), test.question)
-    return run_systems(sources, test.machine, observations, test.question.reference_force)
+    return run_systems(sources, test.machine, observations, test.question.reference_force, own_to_run(test, sources))
 
 
 def sources_of(test: MachineTest) -> tuple[Source, ...]:
     """The error sources that a test's question asks for."""
-    sources = select_sources(test.machine, test.question.parameters)
+    sources = select_sources(test.machine, test.asked)
     return reciprocal_sources(sources) if test.question.reciprocal else sources
+
+
+def own_to_run(test: MachineTest, sources: Sequence[Source]) -> tuple[Source, ...]:
+    """The set-up that every run has for itself; none where it is asked for as one for all, or a reference is subtracted."""
+    patterns = test.setup.own_to_run
+    if not patterns or test.question.reference_force is not None:
+        return ()
+    own = select_sources(test.machine, patterns)
+    asked = {source.name for source in sources}
+    return () if any(source.name in asked for source in own) else own
 
 
 def chosen_observations(observations: Sequence[Observations], question: Question) -> tuple[Observations, ...]:
@@ -311,7 +322,7 @@ def consistency_of(identification: Identification, draws: int = 0, seed: int = 0
 def what_reciprocity_buys(test: MachineTest) -> Reciprocity:
     """What taking each joint as symmetric buys for a test's question."""
     question = test.question
-    sources = select_sources(test.machine, question.parameters)
+    sources = select_sources(test.machine, test.asked)
     return reciprocity(sources, test.machine, test.observations(), question.reference_force, question.prefer)
 
 
@@ -408,6 +419,11 @@ def _local_change(systems: Systems, retained: Sequence[str]) -> Change | None:
         return local_change([run.factor for run in systems.runs], retained, choices)
     except (DegreesOfFreedomError, RankError):
         return None
+
+
+def _set_up(run: RunSystem, own: Sequence[Source], solution: Solution) -> dict[str, float]:
+    values = run.set_up(solution.labels, solution.values)
+    return {source.name: float(value) for source, value in zip(own, values, strict=True)}
 
 
 def _strongest(systems: Systems) -> RunSystem:

@@ -87,7 +87,7 @@ def _observed(machine: Machine, systems: Systems) -> Iterator[Effect]:
             np.array([_stretch(run, one) for run, one in zip(systems.runs, several, strict=True)]),
             tuple(-one.reading for one in several) if any(one.reading.any() for one in several) else None,
             tuple(
-                load_derivative(systems.sources, machine, run.observations, one.wrench)
+                run.without_own(load_derivative(systems.sources, machine, run.observations, one.wrench))
                 for run, one in zip(systems.runs, several, strict=True)
             )
             if loads

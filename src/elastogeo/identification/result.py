@@ -72,7 +72,7 @@ class Parameter(Part):
 
 @dataclass(frozen=True, slots=True)
 class Trace:
-    """Measured and predicted readings of one run, reference taken off if one was.
+    """Measured and predicted readings of one run, less the reference if one was subtracted, and less the run's own set-up.
 
     Attributes
     ----------
@@ -181,6 +181,8 @@ class Identification(Result):
     repeats : Repeatability or None
         From the levels that were repeated, if at least two were.
     patterns : tuple of Pattern
+    set_up : dict of str to dict of str to float [mm]
+        Of each run its own set-up: where its circle really lies. Empty where it is one for all runs, or not in the model.
     rmse : float [mm]
         Over all readings.
     agreement : Agreement or None
@@ -207,6 +209,7 @@ class Identification(Result):
     local: tuple[Local, ...]
     repeats: Repeatability | None
     patterns: tuple[Pattern, ...]
+    set_up: dict[str, dict[str, float]]
     rmse: float
     verdict: tuple[Check, ...]
     agreement: Agreement | None = None

@@ -8,9 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from elastogeo.errors import UnsupportedError
-from elastogeo.estimate import factor_blocks, huber_weights, solve
-from elastogeo.identification.systems import RunSystem, Systems, merged
-from elastogeo.machine import Array
+from elastogeo.estimate import huber_weights, solve
+from elastogeo.identification.systems import Systems, merged, reweighted
 
 _SETTLED = 1e-9
 _STEPS = 100
@@ -33,18 +32,13 @@ def downweighted(systems: Systems, retained: Sequence[str]) -> Systems:
     """
     if systems.references:
         raise UnsupportedError("a robust estimate needs the model without a reference level; leave reference_force out")
-    last = solve(merged(systems.runs), retained).values
+    weighted, last = systems.runs, solve(merged(systems.runs), retained).values
     for _ in range(_STEPS):
-        residual = [run.reading - run.design_of(retained) @ last for run in systems.runs]
+        residual = [run.reading - run.design_of(retained) @ last for run in weighted]
         weights = np.split(huber_weights(np.concatenate(residual)), np.cumsum([len(r) for r in residual])[:-1])
-        weighted = tuple(_weighted(run, w) for run, w in zip(systems.runs, weights, strict=True))
+        weighted = tuple(reweighted(run, w) for run, w in zip(systems.runs, weights, strict=True))
         values = solve(merged(weighted), retained).values
         if (np.abs(values - last) <= _SETTLED * np.abs(values).clip(np.finfo(float).tiny)).all():
             return replace(systems, runs=weighted)
         last = values
     raise UnsupportedError(f"the robust weights did not settle in {_STEPS} steps; look at the plain residuals")
-
-
-def _weighted(run: RunSystem, weights: Array) -> RunSystem:
-    rows = np.asfortranarray(run.rows * np.sqrt(weights)[:, np.newaxis])
-    return replace(run, weights=weights, factor=factor_blocks(run.factor.labels, [rows]))

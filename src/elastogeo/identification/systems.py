@@ -1,9 +1,13 @@
-"""One linear system per run, with a reference force level taken off if the question asks for it."""
+"""One linear system per run, less a reference force level if one is asked for, and less the run's own set-up.
+
+What every run has for itself (where its circle really lies) is no parameter: it is projected out of the rows of the run, as
+if it were estimated in each run anew (Frisch, Waugh and Lovell). What is left of the rows has as many readings less.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,6 +24,14 @@ SAME_FORCE = 0.5
 """Forces [N] that differ by less are the same level."""
 
 
+OWN_TOLERANCE = 1e-9
+"""Relative length below which a combination of a run's set-up columns is none."""
+
+
+ABSORBED = 1e-12
+"""Share of a column that is left by rounding when the run's own set-up explains all of it."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class RunSystem:
     """The linear system of one run.
@@ -31,9 +43,13 @@ class RunSystem:
     force : float [N]
         Force level, less the reference's if one is taken off (Eq. 4.27).
     rows : array, shape (m, p + 1)
-        `[A | y]`, less the reference's if one is taken off (Eq. 4.26).
+        `[A | y]`, less the reference's if one is taken off (Eq. 4.26), less what the run's own set-up explains of them.
     factor : Factor
         Of the rows, each with the root of its weight.
+    own : array, shape (m, k)
+        Columns of the run's own set-up.
+    aside : array, shape (k, p + 1)
+        How much of these columns the rows held.
     weights : array, shape (m,), or None
         Of the readings, where outliers count less; None if all count one.
     """
@@ -42,6 +58,8 @@ class RunSystem:
     force: float
     rows: Array
     factor: Factor
+    own: Array
+    aside: Array
     weights: Array | None = None
 
     @property
@@ -63,6 +81,15 @@ class RunSystem:
         """Change of each reading per unit of each parameter, shape (m, p)."""
         return self.rows[:, :-1]
 
+    def set_up(self, labels: Sequence[str], values: Array) -> Array:
+        """The run's own set-up, shape (k,) [mm], if the parameters have these values."""
+        chosen = self.aside[:, [self.factor.labels.index(label) for label in labels]]
+        return np.asarray(self.aside[:, -1] - chosen @ values)
+
+    def without_own(self, columns: Array) -> Array:
+        """Other columns of the run, shape (m, q), less what its own set-up explains of them."""
+        return columns - self.own @ own_part(self.own, columns, self.weights)
+
 
 @dataclass(frozen=True, slots=True)
 class Systems:
@@ -74,6 +101,8 @@ class Systems:
         One per column.
     runs : tuple of RunSystem
         In the order of the test, without the reference runs if they are taken off.
+    own : tuple of Source
+        The set-up that every run has for itself.
     references : int
         How many reference runs were averaged and taken off from each run; 0 if none was.
     applied : tuple of float [N]
@@ -84,6 +113,7 @@ class Systems:
 
     sources: tuple[Source, ...]
     runs: tuple[RunSystem, ...]
+    own: tuple[Source, ...]
     references: int
     applied: tuple[float, ...]
     ceilings: Array
@@ -122,7 +152,11 @@ def force_levels(forces: Iterable[float]) -> tuple[float, ...]:
 
 
 def run_systems(
-    sources: Sequence[Source], machine: Machine, observations: Sequence[Observations], reference: float | None = None
+    sources: Sequence[Source],
+    machine: Machine,
+    observations: Sequence[Observations],
+    reference: float | None = None,
+    own: Sequence[Source] = (),
 ) -> Systems:
     """The linear system of every run.
 
@@ -135,6 +169,8 @@ def run_systems(
     reference : float, optional [N]
         Force level whose readings and model are taken off from all others, at the same poses (Eqs. 4.26, 4.27). What does
         not change with the load then cancels, from the readings and from the model alike.
+    own : sequence of Source
+        The set-up that every run has for itself.
 
     Raises
     ------
@@ -162,13 +198,49 @@ def run_systems(
         taken = sum(r for r, is_ref in zip(rows, is_reference, strict=True) if is_ref) / references
         rows = [r - taken for r in rows]
         forces = [force - base.force for force in forces]
+    own_columns = [design_rows(own, machine, run)[:, :-1] for run in observations]
+    sizes = np.max([np.linalg.norm(columns, axis=0) / np.sqrt(len(columns)) for columns in own_columns], axis=0)
+    moving = [k for k in range(len(own)) if sizes[k] > OWN_TOLERANCE]
     runs = tuple(
-        RunSystem(run, force, r, factor_blocks(labels, [r.copy(order="F")]))
-        for run, force, r, is_ref in zip(observations, forces, rows, is_reference, strict=True)
+        _run_system(labels, run, force, r, np.asfortranarray(columns[:, moving]))
+        for run, force, r, columns, is_ref in zip(observations, forces, rows, own_columns, is_reference, strict=True)
         if not is_ref
     )
     ceilings = np.linalg.norm([column_ceilings(sources, machine, run) for run in observations], axis=0)
-    return Systems(tuple(sources), runs, references, applied, ceilings)
+    return Systems(tuple(sources), runs, tuple(own[k] for k in moving), references, applied, ceilings)
+
+
+def _run_system(labels: Sequence[str], run: Observations, force: float, rows: Array, own: Array) -> RunSystem:
+    aside = own_part(own, rows)
+    left = rows - own @ aside
+    left[:, :-1][:, np.linalg.norm(left[:, :-1], axis=0) <= ABSORBED * np.linalg.norm(rows[:, :-1], axis=0)] = 0.0
+    return RunSystem(run, force, left, _factor_of(labels, left, own), own, aside)
+
+
+def reweighted(run: RunSystem, weights: Array) -> RunSystem:
+    """The same run with a weight for each reading, shape (m,); its own set-up is found anew."""
+    more = own_part(run.own, run.rows, weights)
+    rows, root = run.rows - run.own @ more, np.sqrt(weights)[:, np.newaxis]
+    factor = _factor_of(run.factor.labels, rows * root, run.own * root)
+    return replace(run, rows=rows, aside=run.aside + more, weights=weights, factor=factor)
+
+
+def own_part(own: Array, columns: Array, weights: Array | None = None) -> Array:
+    """How much of a run's own set-up, shape (m, k), is in columns, shape (m, q): least squares, shape (k, q).
+
+    Of set-up columns that the run cannot tell apart the smallest values, of one that moves no reading none.
+    """
+    if not own.shape[1]:
+        return np.zeros((0, columns.shape[1]))
+    root = np.ones(len(own)) if weights is None else np.sqrt(weights)
+    return np.asarray(np.linalg.lstsq(own * root[:, np.newaxis], columns * root[:, np.newaxis], rcond=OWN_TOLERANCE)[0])
+
+
+def _factor_of(labels: Sequence[str], rows: Array, own: Array) -> Factor:
+    """Factor of rows from which a run's own set-up is projected out: so many readings less."""
+    factor = factor_blocks(labels, [rows.copy(order="F")])
+    spent = int(np.linalg.matrix_rank(own, tol=OWN_TOLERANCE * np.sqrt(len(own)))) if own.shape[1] else 0
+    return replace(factor, rows=factor.rows - spent)
 
 
 def _applied(run: Observations) -> tuple[float, ...]:

@@ -72,6 +72,15 @@ class Circle:
         )
 
 
+def circle_parameters(circle: Circle, loaded: bool) -> tuple[str, ...]:
+    """What to ask of readings on a circle where nobody asks: compliance, geometry and location if loaded, else faults."""
+    if isinstance(circle.plane, str) and not circle.rotary_turn:
+        return (f"{'loaded' if loaded else 'ball-bar'}-{circle.plane.lower()}",)
+    turning = "".join(circle.rotary_turn)
+    geometry = ("E_[XYZ][XYZ][12]", "E_[ABC](0*)[XYZ]", *(f"E_[XYZ](*){axis}" for axis in turning))
+    return (f"C_[XYZABC][XYZABC][XYZ{turning}]", *geometry) if loaded else geometry
+
+
 def plane_directions(plane: str | tuple[Direction, Direction]) -> tuple[Array, Array]:
     """The two orthogonal unit directions of a plane.
 

@@ -82,6 +82,13 @@ class Setup(Protocol):
     def pose_quantity(self) -> str:
         """What the readings count along: `angle` if they go around a circle."""
 
+    @property
+    def own_to_run(self) -> tuple[str, ...]:
+        """Parameters of the set-up, as patterns, that every run has for itself (where its circle really lies), if any."""
+
+    def default_parameters(self, runs: Sequence[Run]) -> tuple[str, ...]:
+        """Names, patterns or presets to ask for where nobody asks."""
+
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations that a run amounts to."""
 
@@ -101,7 +108,7 @@ class Question:
     Attributes
     ----------
     parameters : tuple of str
-        Names, patterns or presets of the parameters to identify.
+        Names, patterns or presets of the parameters to identify; empty for those that the instrument asks for by default.
     reference_force : float or None [N]
         Force level that is subtracted from all others (Eqs. 4.26, 4.27), if any.
     prefer : tuple of str
@@ -114,7 +121,7 @@ class Question:
         Whether outlying readings count less (Huber).
     """
 
-    parameters: tuple[str, ...] = ("planar-xy",)
+    parameters: tuple[str, ...] = ()
     reference_force: Force | None = None
     prefer: tuple[str, ...] = ()
     levels: Forces = ()
@@ -196,6 +203,11 @@ class MachineTest(ByValue):
     def __repr__(self) -> str:
         machine = f"{self.machine.name} ({self.machine.topology.compact})"
         return f"<MachineTest {self.name!r}: {type(self.setup).__name__} on {machine}, {len(self.runs)} runs>"
+
+    @property
+    def asked(self) -> tuple[str, ...]:
+        """Names, patterns or presets of the parameters that are asked for: the question's, else the instrument's own."""
+        return self.question.parameters or self.setup.default_parameters(self.runs)
 
     def observations(self) -> tuple[Observations, ...]:
         """The observations of every run that holds readings, in order."""

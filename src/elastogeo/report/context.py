@@ -105,7 +105,7 @@ def facts(result: Identification) -> list[tuple[str, str]]:
     else:
         lines.append(("Force", f"{forces} N over the reference of {result.reference_force:g} N, which is taken off"))
     resolution = "not given" if test.resolution is None else f"{in_micrometres(test.resolution)} µm"
-    return [*lines, ("Resolution", resolution), ("Asked for", ", ".join(test.question.parameters))]
+    return [*lines, ("Resolution", resolution), ("Asked for", ", ".join(test.asked))]
 
 
 def _said(check: Check) -> Context:

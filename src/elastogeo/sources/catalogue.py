@@ -32,7 +32,17 @@ def _ball_bar(parts: str, axes: str) -> tuple[str, ...]:
         *(f"S_{axis}{axis}" for axis in axes),
         *(f"P_{axis}{axis}[cs]1|" for axis in axes),
         *(f"T_{axis}1" for axis in axes),
-        *(f"E_{axis}t0" for axis in axes),
+    )
+
+
+def _loaded(parts: str, axes: str) -> tuple[str, ...]:
+    """What a loaded circle in one plane shows: compliance, geometry, location; the set-up is of each run for itself."""
+    one, other, turn = axes[0], axes[1], parts[2]
+    return (
+        *_planar(parts, axes),
+        *(f"E_{axis}{axis}1" for axis in axes),
+        *(f"E_{other}{one}2", f"E_{one}{other}2"),
+        f"E_{turn}(0[XYZ])[{axes}]|E_{turn}(0){one}",
     )
 
 
@@ -40,6 +50,7 @@ PRESETS: dict[str, tuple[str, ...]] = {
     "compliance": ("C_*",),
     **{f"planar-{plane}": _planar(*letters) for plane, letters in _PLANES.items()},
     **{f"ball-bar-{plane}": _ball_bar(*letters) for plane, letters in _PLANES.items()},
+    **{f"loaded-{plane}": _loaded(*letters) for plane, letters in _PLANES.items()},
     "elasto-geometric-xy": (
         *("C_XXX", "C_XYX", "C_YYY", "C_CXY", "C_CYY", "C_CCY"),
         *("E_XX1", "E_YX2", "E_XY2", "E_YY1", "E_C(0Y)X", "E_Xt0", "E_Yt0"),
@@ -48,8 +59,8 @@ PRESETS: dict[str, tuple[str, ...]] = {
     "geometry-3-axis": ("E_[XYZABC][XYZ][12]", "E_[ABC](0*)[XYZ]"),
     "geometry-5-axis": ("E_[XYZABC][XYZ][12]", "E_[XYZABC][ABC][cs]1", "E_?(0*)[XYZABC]"),
 }
-"""Named selections: all joint compliances; those of one plane; ball bar diagnosis; the 13 of Table 5.1; compliance and path
-by direction; whole machines.
+"""Named selections: all joint compliances; those of one plane; ball bar diagnosis; compliance, geometry and location of a
+loaded circle; the 13 of Table 5.1, whose set-up is one for all runs; compliance and path by direction; whole machines.
 
 In a pattern `|` separates alternatives, of which the first that selects anything counts; an empty one may select nothing.
 """

@@ -28,9 +28,8 @@ radius_mm = 150
 plane = "XY"                     # XY, YZ, ZX, or two directions: [[1, 0, 0], [0, 0.8, 0.6]]
 centre = {{ {centre} }}            # axis commands at the centre; rotary axes are held where this says
 
-[question]
-parameters = ["planar-xy"]       # names, patterns (C_??X) or presets: see elastogeo confounding
-reference_force_N = {reference:g}            # level that is taken off from all others; leave it out to take none off
+# Asked for, unless a [question] says otherwise: compliance, geometry and location; each run has its own circle centre.
+# To ask for something else: [question] with parameters = [...], names, patterns (C_??X) or presets.
 
 # One entry a run. Columns of a run file: angle_deg, radial_um (or other units).
 # Instead of force_N a run may have pressure_bar, with [setup.calibration] pressure_bar = [...], force_N = [...].
@@ -74,7 +73,7 @@ def new_test(
     machine : str
         A shipped machine or a machine file.
     forces : sequence of float [N]
-        Levels; the least is the reference.
+        Levels.
     repeats : int
         Runs at each level.
 
@@ -101,6 +100,6 @@ def new_test(
         for repeat in range(1, repeats + 1)
     )
     name = machine if not machine.endswith(".toml") else str(Path(machine).resolve())
-    text = _TEST.format(machine=name, centre=centre, reference=min(forces)) + runs
+    text = _TEST.format(machine=name, centre=centre) + runs
     write_whole({folder / FILE_NAME: text.encode(), folder / "simulation.toml": _SIMULATION.encode()})
     return folder / FILE_NAME

@@ -10,7 +10,7 @@ import numpy as np
 
 from elastogeo.errors import InputError
 from elastogeo.machine import Array, Feed, LengthPerPressure, Machine, Point, follow
-from elastogeo.observe.circle import Circle
+from elastogeo.observe.circle import Circle, circle_parameters
 from elastogeo.observe.force import Calibration, force_influences, force_of_run
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
@@ -67,6 +67,15 @@ class LoadedBallBar:
     def pose_quantity(self) -> str:
         """The angle in the plane of the circle."""
         return "angle"
+
+    @property
+    def own_to_run(self) -> tuple[str, ...]:
+        """The offsets of the circle's centre."""
+        return ("E_[XYZ]t0",)
+
+    def default_parameters(self, runs: Sequence[Run]) -> tuple[str, ...]:
+        """Compliance, geometry and location of a loaded bar; the faults that a bar without load shows."""
+        return circle_parameters(self.circle, any(run.force or run.pressure for run in runs))
 
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations that a run amounts to.

@@ -38,7 +38,7 @@ from elastogeo.machine import (
     follow,
     workpiece_ball,
 )
-from elastogeo.observe.circle import Circle
+from elastogeo.observe.circle import Circle, circle_parameters
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.measurement import Respond, Run
@@ -123,6 +123,15 @@ class BallRoller:
     def pose_quantity(self) -> str:
         """The angle in the plane of the circle."""
         return "angle"
+
+    @property
+    def own_to_run(self) -> tuple[str, ...]:
+        """The offsets of the circle's centre."""
+        return ("E_[XYZ]t0",)
+
+    def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
+        """Compliance, geometry and location."""
+        return circle_parameters(self.circle, loaded=True)
 
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations of one run, with balances that are known.

@@ -27,6 +27,11 @@ _STANDING = 1e-6
 """Positions [mm, rad] of one run may differ by this much: it is to stand still."""
 
 
+def axes_along(direction: Direction) -> str:
+    """Letters of the axes along which a direction has a component."""
+    return "".join(axis for axis, part in zip("XYZ", direction, strict=True) if part)
+
+
 def unit_vector(direction: Direction, what: str) -> Array:
     """A direction as a unit vector, shape (3,).
 

@@ -96,6 +96,16 @@ class DisplacementProbes:
         """The angle by which the rotary axes turn: not that of a circle, as every probe has its own trace over it."""
         return "turn"
 
+    @property
+    def own_to_run(self) -> tuple[str, ...]:
+        """Nothing: the probes' zeros are parameters of the test."""
+        return ()
+
+    def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
+        """The compliances in translation, and the probes' zeros."""
+        place = "w" if self.probes_in_workpiece else "t"
+        return ("C_[XYZ][XYZ]?", *(f"E_{axis}{place}0" for axis in "XYZ"))
+
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations that a run amounts to: every probe's readings, one probe after the other.
 

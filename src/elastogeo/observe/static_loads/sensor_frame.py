@@ -130,6 +130,15 @@ class SensorFrame:
         """The size of the force."""
         return "force"
 
+    @property
+    def own_to_run(self) -> tuple[str, ...]:
+        """Nothing: the sensors are zeroed without load."""
+        return ()
+
+    def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
+        """The compliances: which sums of them one place and one direction of the force show, the answer says."""
+        return ("compliance",)
+
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations that a run amounts to: every sensor's readings, one sensor after the other.
 

@@ -19,6 +19,7 @@ from elastogeo.observe.instruments import instrument
 from elastogeo.observe.measurement import Respond, Run
 from elastogeo.observe.observations import Observations, check_observations
 from elastogeo.observe.static_loads.load import (
+    axes_along,
     check_displacements,
     commands_row,
     force_columns,
@@ -84,6 +85,17 @@ class StaticForce:
     def pose_quantity(self) -> str:
         """The size of the force."""
         return "force"
+
+    @property
+    def own_to_run(self) -> tuple[str, ...]:
+        """Nothing: the sensor's zero is a parameter of the test."""
+        return ()
+
+    def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
+        """The compliances in translation that force and sensor show, and the sensor's zero."""
+        force = "XYZ" if self.direction is None else axes_along(self.direction)
+        seen = force if self.sensor is None else axes_along(self.sensor)
+        return (f"C_[{seen}][{force}]?", "E_R0")
 
     def sensitive_direction(self) -> Array:
         """Unit direction of the sensor, shape (3,).

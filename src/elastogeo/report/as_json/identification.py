@@ -31,6 +31,7 @@ consistency : null, or {state, sentence, constrained: {name: value}, distance, d
 repeats : null, or {levels: {level: runs}, combinations, mean, combination_std, estimate, standard_uncertainty,
     degrees_of_freedom, note}; from mean to degrees_of_freedom they are {name: number}; `estimate` is from all repeated
     runs together, `standard_uncertainty` is its own, from the scatter of the runs
+set_up : [{run, E_Xt0_um, ...}], each run's own set-up, empty where it is one for all runs or not in the model
 minimum_norm : {name: value} over all parameters that were asked for; not an estimate of each
 """
 
@@ -82,6 +83,10 @@ def identification_json(result: Identification) -> dict[str, Any]:
             "models": None if result.models is None else _models(result.models),
             "consistency": None if result.consistency is None else _consistency(result.consistency),
             "repeats": None if result.repeats is None else _repeats(result.repeats, result.reference_force),
+            "set_up": [
+                {"run": run, **{f"{name}_um": value * UM for name, value in values.items()}}
+                for run, values in result.set_up.items()
+            ],
             "minimum_norm": result.minimum_norm,
             "verdict": verdict_entries(result.verdict),
         },
