@@ -63,25 +63,32 @@ def test_the_map_holds_the_true_compliance_in_every_direction(found: StiffnessMa
     assert len(overall.angle) == 24
     inside = (overall.interval[:, 0] <= true) & (true <= overall.interval[:, 1])
     assert inside.mean() >= 0.9
-    assert_allclose(overall.compliance, true, rtol=0.02)
+    assert_allclose(overall.compliance, true, rtol=0.035)
     assert_allclose(overall.stiffness, 1 / overall.compliance)
     assert (overall.stiffness_interval[:, 0] < overall.stiffness).all()
     assert (overall.stiffness < overall.stiffness_interval[:, 1]).all()
 
 
-def test_every_level_holds_it_too(found: StiffnessMap) -> None:
-    true = true_compliance(found.overall.angle)
-    assert [round(level.force or 0, -1) for level in found.levels] == [1010, 1550]
-    for level in found.levels:
-        assert ((level.interval[:, 0] <= true) & (true <= level.interval[:, 1])).mean() >= 0.9
+def test_secants_increments_and_model_hold_it_too(found: StiffnessMap) -> None:
+    """The truth is one spring, so its increments are that; a secant is the spring with its path, known here by hand."""
+    true, angle = true_compliance(found.overall.angle), found.overall.angle
+    path = TRUTH["E_Xt0"] * np.cos(angle) + TRUTH["E_XX1"] * 56.4 * np.cos(angle) ** 2
+    assert [[round(force, -1) for force in level.force] for level in found.secants] == [[470], [1010], [1550]]
+    for step in found.increments:
+        assert ((step.interval[:, 0] <= true) & (true <= step.interval[:, 1])).mean() >= 0.9
+    for level in found.secants:
+        seen = true + path / level.force[0]
+        assert ((level.interval[:, 0] <= seen) & (seen <= level.interval[:, 1])).mean() >= 0.9
+    assert [level.kind for level in found.modelled] == ["modelled"]
+    assert_allclose(found.path, path, atol=2e-3)
 
 
 def test_the_interval_holds_what_drives_and_setup_bring(found: StiffnessMap) -> None:
-    labels = {line.label for line in found.volumetric.budget.lines[0]}
-    assert {"force per current of X", "friction and inertia of Y", "scatter of the readings"} <= labels
+    labels = set(found.overall.labels)
+    assert {"force per current of X", "friction and inertia of Y", "losses of X when driven back"} <= labels
     # 1 % of the force per current is 1 % of the whole compliance, the set-up's included, in the direction of one drive
-    line = next(line for line in found.volumetric.budget.lines[0] if line.label == "force per current of X")
-    assert_allclose(line.contribution, 0.01 * (TRUTH["C_XXX"] + 1 / 15e3), rtol=0.03)
+    contribution = found.overall.contribution("force per current of X")[0]
+    assert_allclose(contribution, 0.01 * (TRUTH["C_XXX"] + 1 / 15e3), rtol=0.03)
 
 
 def test_the_joints_of_the_question_come_with_it(found: StiffnessMap) -> None:
@@ -134,12 +141,14 @@ def test_a_dynamometer_that_measures_something_else_is_said() -> None:
     found = map_stiffness(replace(test, runs=noise))
     assert found.dynamometer is None
     check = next(check for check in found.verdict if check.name == "force agrees with the dynamometer")
-    assert not check.passed
-    assert "could not be judged: the force records correlate by" in sentence_of(check)
+    assert check.passed is None
+    assert sentence_of(check).startswith("Not tested: the force records correlate by")
 
 
 def test_one_level_does_not_tell_compliance_from_path() -> None:
-    with pytest.raises(UnsupportedError, match=r"not told apart in 24 of 24 directions: .* two engagements all around"):
+    with pytest.raises(
+        UnsupportedError, match=r"compliance and path are not distinguished in any of 24 directions; it takes"
+    ):
         map_stiffness(simulated((0.0, 0.2)))
 
 

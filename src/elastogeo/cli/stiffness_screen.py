@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from elastogeo.cli import screen
 from elastogeo.identification import StiffnessMap
-from elastogeo.report import balance_rows, level_names, stiffness_rows
+from elastogeo.report import balance_rows, level_rows, overall_name, stiffness_rows
 
 
 def show_stiffness(found: StiffnessMap) -> None:
@@ -15,11 +15,15 @@ def show_stiffness(found: StiffnessMap) -> None:
         drives.add_row(balance.axis, balance.parameter, balance.value, balance.unit)
     screen.show_table(drives)
     screen.say("")
-    levels = level_names(found)
-    headings = ("direction [deg]", "compliance ± U [um/N]", "stiffness [N/um]", "95 %")
-    by_direction = screen.empty_table((*headings, *(f"{name} [N/um]" for name in levels)), left=())
+    levels = screen.empty_table(("force [N]", "secant (6.5) [N/um]", "increment [N/um]", "modelled [N/um]"), left=())
+    for level in level_rows(found):
+        levels.add_row(level.force, level.secant, level.increment, level.modelled)
+    screen.show_table(levels)
+    screen.say("")
+    screen.say(f"Stiffness by direction: {overall_name(found)}")
+    by_direction = screen.empty_table(("direction [deg]", "compliance ± U [um/N]", "stiffness [N/um]", "95 %"), left=())
     for row in stiffness_rows(found):
-        by_direction.add_row(row.direction, row.compliance, row.stiffness, row.stiffness_interval, *row.by_level)
+        by_direction.add_row(row.direction, row.compliance, row.stiffness, row.stiffness_interval)
     screen.show_table(by_direction)
     screen.say("")
     screen.show_parameters(found.joints)

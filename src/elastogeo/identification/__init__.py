@@ -27,7 +27,9 @@ from elastogeo.identification.models import Comparison, ModelFit, compare_models
 from elastogeo.identification.physics import Consistency, Reciprocity, consistency, reciprocal_sources, reciprocity
 from elastogeo.identification.preference import moving_axes, retaining_order
 from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Trace
-from elastogeo.identification.rollers.stiffness_map import Stiffness, StiffnessMap, map_stiffness
+from elastogeo.identification.rollers.laws import LawChoice, LawScore
+from elastogeo.identification.rollers.result import Stiffness, StiffnessMap
+from elastogeo.identification.rollers.stiffness_map import map_stiffness
 from elastogeo.identification.static_tests.assessment import evaluate_static
 from elastogeo.identification.static_tests.cartesian import (
     CartesianCompliance,
@@ -76,6 +78,8 @@ __all__ = [
     "ForceCalibration",
     "Harmonic",
     "Identification",
+    "LawChoice",
+    "LawScore",
     "Level",
     "LoadStep",
     "LoadedPlace",

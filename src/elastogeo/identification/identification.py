@@ -89,7 +89,12 @@ def identify(test: MachineTest, **asked: Unpack[Asked]) -> Identification:
         If no parameter changes any reading, the reference level is missing, or there are too few readings.
     """
     test = with_question(test, **asked)
-    systems = systems_of(test)
+    return identify_observed(test, test.observations())
+
+
+def identify_observed(test: MachineTest, observations: Sequence[Observations]) -> Identification:
+    """Identify the parameters that a test's question asks for, as `identify`, of observations that were made before."""
+    systems = systems_of(test, observations)
     found = confounding_of(test, systems)
     if test.question.robust:
         systems = downweighted(systems, found.retained)
@@ -246,11 +251,11 @@ def _listed(names: str | Sequence[str] | None) -> tuple[str, ...]:
     return (names,) if isinstance(names, str) else tuple(names or ())
 
 
-def systems_of(test: MachineTest) -> Systems:
-    """The linear systems that a test and its question amount to."""
+def systems_of(test: MachineTest, observations: Sequence[Observations] | None = None) -> Systems:
+    """The linear systems that a test and its question amount to, of its observations if they were made before."""
     sources = sources_of(test)
-    observations = chosen_observations(test.observations(), test.question)
-    return run_systems(sources, test.machine, observations, test.question.reference_force, own_to_run(test, sources))
+    chosen = chosen_observations(test.observations() if observations is None else observations, test.question)
+    return run_systems(sources, test.machine, chosen, test.question.reference_force, own_to_run(test, sources))
 
 
 def sources_of(test: MachineTest) -> tuple[Source, ...]:

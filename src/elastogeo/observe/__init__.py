@@ -9,7 +9,7 @@ from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
 from elastogeo.observe.measurement import KnownInfluence, MachineTest, Question, Run, Setup
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
-from elastogeo.observe.rollers.ball_roller import BallRoller
+from elastogeo.observe.rollers.ball_roller import BallRoller, Pressed
 from elastogeo.observe.rollers.rig import Rig
 from elastogeo.observe.static_loads.probes import DisplacementProbes
 from elastogeo.observe.static_loads.sensor_frame import Sensor, SensorFrame, sensitivities
@@ -31,6 +31,7 @@ __all__ = [
     "MachineTest",
     "Observations",
     "ObservedInfluence",
+    "Pressed",
     "Question",
     "Residue",
     "Rig",

@@ -34,15 +34,22 @@ class StiffnessRow:
         `value ± U` in um/N.
     stiffness, stiffness_interval : str
         In N/um.
-    by_level : tuple of str
-        Stiffness [N/um] from the least level to each other.
     """
 
     direction: str
     compliance: str
     stiffness: str
     stiffness_interval: str
-    by_level: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LevelRow:
+    """One engagement, formatted: its mean force, and least to greatest stiffness [N/um] of each kind around the turn."""
+
+    force: str
+    secant: str
+    increment: str
+    modelled: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,18 +67,38 @@ def stiffness_rows(found: StiffnessMap) -> tuple[StiffnessRow, ...]:
     overall = found.overall
     half = (overall.interval[:, 1] - overall.interval[:, 0]) / 2
     rows = []
+    bounds = overall.stiffness_interval
     for k, angle in enumerate(overall.angle):
-        low, high = overall.stiffness_interval[k]
+        low, high = bounds[k]
         rows.append(
             StiffnessRow(
                 direction=f"{np.rad2deg(angle):.0f}",
                 compliance=value_with_uncertainty(overall.compliance[k] * UM, half[k] * UM),
                 stiffness=_stiffness(overall.stiffness[k]),
                 stiffness_interval=f"{_stiffness(low)} to {_stiffness(high)}",
-                by_level=tuple(_stiffness(level.stiffness[k]) for level in found.levels),
             )
         )
     return tuple(rows)
+
+
+def level_rows(found: StiffnessMap) -> tuple[LevelRow, ...]:
+    """How the stiffness goes with the engagement, a row each; an increment stands at its greater engagement."""
+    modelled = found.modelled if len(found.modelled) > 1 else found.modelled * len(found.secants)
+    increments = (None, *found.increments)
+    return tuple(
+        LevelRow(f"{secant.force[0]:.0f}", _around(secant), "" if step is None else _around(step), _around(law))
+        for secant, step, law in zip(found.secants, increments, modelled, strict=True)
+    )
+
+
+def _around(found: Stiffness) -> str:
+    low, high = _stiffness(float(found.stiffness.min())), _stiffness(float(found.stiffness.max()))
+    return low if low == high else f"{low} to {high}"
+
+
+def overall_name(found: StiffnessMap) -> str:
+    """What the stiffness by direction is: `modelled`, `increment 1010 to 1550 N`."""
+    return _named(found.overall)
 
 
 def balance_rows(found: StiffnessMap) -> tuple[BalanceRow, ...]:
@@ -87,7 +114,7 @@ def balance_rows(found: StiffnessMap) -> tuple[BalanceRow, ...]:
 
 
 def stiffness_figure(found: StiffnessMap) -> Figure:
-    """Stiffness by direction: all levels with their interval, and each level from the least one on.
+    """Stiffness by direction: what stands for the machine with its interval, and the increment of each engagement.
 
     Raises
     ------
@@ -102,12 +129,10 @@ def stiffness_figure(found: StiffnessMap) -> Figure:
         low, high = (_closed(bound) / UM for bound in found.overall.stiffness_interval.T)
         around = _closed(found.overall.angle, turn=2 * np.pi)
         ax.fill_between(around, low, np.where(np.isfinite(high), high, low), color=BLUE, alpha=0.15, linewidth=0)
-        ax.plot(around, _closed(found.overall.stiffness) / UM, color=BLUE, label="all levels, with interval (95 %)")
-        colours = force_colours([level.force or 0.0 for level in found.levels])
-        for level in found.levels:
-            ax.plot(
-                around, _closed(level.stiffness) / UM, color=colours[level.force or 0.0], linewidth=0.8, label=_named(level)
-            )
+        ax.plot(around, _closed(found.overall.stiffness) / UM, color=BLUE, label=f"{_named(found.overall)}, 95 %")
+        colours = force_colours([step.force[-1] for step in found.increments])
+        for step in found.increments:
+            ax.plot(around, _closed(step.stiffness) / UM, color=colours[step.force[-1]], linewidth=0.8, label=_named(step))
         ax.set_ylim(0.0, 1.15 * float(np.max(found.overall.stiffness[np.isfinite(found.overall.stiffness)])) / UM)
         ax.set_title("volumetric stiffness (N/µm)" + (", simulated" if found.joints.test.simulated else ""))
         figure.legend(loc="outside right upper")
@@ -119,13 +144,9 @@ def save_stiffness(found: StiffnessMap, folder: str | Path) -> Path:
     return save_drawn({"stiffness": stiffness_figure(found)}, folder, ("svg",))[0]
 
 
-def level_names(found: StiffnessMap) -> tuple[str, ...]:
-    """What each level of the map is called."""
-    return tuple(_named(level) for level in found.levels)
-
-
-def _named(level: Stiffness) -> str:
-    return f"to {level.force:.0f} N" if level.force is not None else "all levels"
+def _named(found: Stiffness) -> str:
+    between = " to ".join(f"{force:.0f}" for force in found.force)
+    return f"{found.kind}, {between} N" if between else f"{found.kind}, all engagements"
 
 
 def _closed(

@@ -15,7 +15,7 @@ from elastogeo.sources.response import (
 from elastogeo.sources.simulate import parameter_values, simulate
 from elastogeo.sources.situation import Situation
 from elastogeo.sources.source import Driver, Sign, Source, twist_unit
-from elastogeo.sources.volumetric import NODES
+from elastogeo.sources.volumetric import NODES, direction_weights
 
 __all__ = [
     "NODES",
@@ -29,6 +29,7 @@ __all__ = [
     "column_ceilings",
     "design_blocks",
     "design_rows",
+    "direction_weights",
     "exact_response",
     "families",
     "family",

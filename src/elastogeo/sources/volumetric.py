@@ -32,11 +32,25 @@ class InDirection:
 
     def __call__(self, situation: Situation) -> Array:
         """Values at every reading, shape (m,)."""
-        half = (situation.observations.pose - self.angle) / 2
-        at_node = np.abs(np.sin(half)) < _AT_NODE
-        kernel = np.sin(len(NODES) * half) / (len(NODES) * np.tan(np.where(at_node, 1.0, half)))
-        weight = np.where(at_node, 1.0, kernel)
+        weight = _weight(situation.observations.pose - self.angle)
         return weight * situation.force() if self.loaded else weight
+
+
+def direction_weights(angle: Array) -> Array:
+    """What the value of each node counts at angles, shape (m, nodes): the trigonometric polynomial through the nodes.
+
+    Parameters
+    ----------
+    angle : array, shape (m,) [rad]
+    """
+    return _weight(angle[:, np.newaxis] - np.deg2rad(NODES))
+
+
+def _weight(apart: Array) -> Array:
+    half = apart / 2
+    at_node = np.abs(np.sin(half)) < _AT_NODE
+    kernel = np.sin(len(NODES) * half) / (len(NODES) * np.tan(np.where(at_node, 1.0, half)))
+    return np.where(at_node, 1.0, kernel)
 
 
 @family

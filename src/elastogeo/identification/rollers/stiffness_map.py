@@ -1,13 +1,14 @@
 """The stiffness map of a ball-roller test: how stiff the machine is in every direction, at every engagement (chapter 6).
 
-The map is identified as everything else is: a compliance and a deviation of the path in each direction are the parameters
-(`sources.volumetric`), so that what does not depend on the load falls out by itself once there are two levels, and the
-intervals hold the scatter of the runs and all that is uncertain in drives and set-up.
+Three kinds of stiffness come out, each under its name. The secant of Eq. 6.5 takes all that the encoders show for elastic:
+what the path is off, and what gives way before the least engagement, makes it rise with the engagement even where the
+machine does not stiffen. The increment between two engagements is free of both. The modelled one is the slope of the law
+that the engagements support (`laws`). All hold the scatter of the runs and all that is uncertain in drives and set-up.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,100 +16,23 @@ import numpy as np
 from elastogeo.drive import (
     ForceAgreement,
     ForceRecord,
-    MotorParameter,
     RigCheck,
-    TorqueBalance,
     compare_forces,
     motor_parameters,
     rig_check,
     with_rig,
 )
-from elastogeo.errors import DegreesOfFreedomError, InputError, UnsupportedError
-from elastogeo.estimate import solve, solve_by_run
-from elastogeo.identification.budget import SCATTER, Budget, uncertainty_budget
-from elastogeo.identification.check import Check
-from elastogeo.identification.identification import confounding_of, effects_of, identify, systems_of
-from elastogeo.identification.result import Identification
-from elastogeo.identification.systems import merged
+from elastogeo.errors import InputError, UnsupportedError
+from elastogeo.identification.identification import effects_of, identify_observed, systems_of
+from elastogeo.identification.rollers.curves import Curves, curves_of
+from elastogeo.identification.rollers.laws import Law, LawChoice, choose_law, fit_law, points, within_levels
+from elastogeo.identification.rollers.result import INCREMENT, MODELLED, SECANT, Stiffness, StiffnessMap
+from elastogeo.identification.rollers.verdict import map_verdict
 from elastogeo.machine import Array
-from elastogeo.observe import BallRoller, MachineTest
-from elastogeo.result import Result
-from elastogeo.sources import NODES
+from elastogeo.observe import BallRoller, MachineTest, Observations, ObservedInfluence, Pressed
 
-PRESET = "volumetric"
 MOST_DELAY = 0.5
 """By how much [s] the clock of a dynamometer may be off."""
-
-
-@dataclass(frozen=True, slots=True)
-class Stiffness:
-    """Volumetric compliance and stiffness in k directions.
-
-    Attributes
-    ----------
-    force : float or None [N]
-        The level to which it holds, from the least one on; None for all levels together.
-    angle : array, shape (k,) [rad]
-        In the plane of the test.
-    compliance, standard_uncertainty : array, shape (k,) [mm/N]
-    interval : array, shape (k, 2) [mm/N]
-        95 %.
-    """
-
-    force: float | None
-    angle: Array
-    compliance: Array
-    standard_uncertainty: Array
-    interval: Array
-
-    @property
-    def stiffness(self) -> Array:
-        """Shape (k,) [N/mm]; infinite where the compliance is not positive."""
-        return _inverse(self.compliance)
-
-    @property
-    def stiffness_interval(self) -> Array:
-        """Shape (k, 2) [N/mm]; without an upper bound where the compliance may be zero."""
-        return _inverse(self.interval[:, ::-1])
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class StiffnessMap(Result):
-    """What a ball-roller test says.
-
-    Attributes
-    ----------
-    joints : Identification
-        Of what the test's own question asks for.
-    volumetric : Identification
-        Of compliance and path by direction.
-    overall : Stiffness
-        Of all levels together.
-    levels : tuple of Stiffness
-        From the least level to each other: how it goes with the load.
-    balances : mapping of str to TorqueBalance
-        Of the drives, by axis.
-    dynamometer : ForceAgreement or None
-        Of the force from the currents with the one that was measured, if one was.
-    rig : RigCheck or None
-        Whether compliance with a rig is that without it and the rig's, in each direction.
-    verdict : tuple of Check
-    """
-
-    joints: Identification
-    volumetric: Identification
-    overall: Stiffness
-    levels: tuple[Stiffness, ...]
-    balances: Mapping[str, TorqueBalance]
-    dynamometer: ForceAgreement | None
-    rig: RigCheck | None
-    verdict: tuple[Check, ...]
-
-    @property
-    def motors(self) -> dict[str, tuple[MotorParameter, ...]]:
-        """The balances as the motors feel them, by axis (Table 6.4)."""
-        drives = {drive.axis: drive for drive in _roller_of(self.joints.test).drives}
-        return {axis: motor_parameters(balance, drives[axis]) for axis, balance in self.balances.items()}
 
 
 def map_stiffness(test: MachineTest, rig_test: MachineTest | None = None) -> StiffnessMap:
@@ -131,19 +55,146 @@ def map_stiffness(test: MachineTest, rig_test: MachineTest | None = None) -> Sti
     setup = _roller_of(test)
     if rig_test is not None and (setup.rig or not _roller_of(rig_test).rig):
         raise InputError("the check with a rig needs a test without one, and one whose set-up names it: [[setup.rig]]")
-    volumetric = identify(_asking_for_map(test))
-    agreement, gauge = _against_dynamometer(test, setup)
-    checked = None if rig_test is None else _with_rig(volumetric, rig_test)
-    return StiffnessMap(
-        joints=identify(test),
-        volumetric=volumetric,
-        overall=_stiffness(volumetric.budget, None, volumetric),
-        levels=_by_level(test, volumetric),
-        balances=setup.torque_balances(test.machine, test.runs),
-        dynamometer=agreement,
-        rig=checked,
-        verdict=tuple(check for check in (*volumetric.verdict, gauge, _rig_verdict(checked)) if check is not None),
+    pressed = setup.pressed(test.machine, test.runs)
+    observations = setup.observed(test.machine, test.runs, pressed)
+    fitted = _fitted(test, observations)
+    measured, untested = _against_dynamometer(test, pressed)
+    drives = {drive.axis: drive for drive in setup.drives}
+    found = StiffnessMap(
+        joints=identify_observed(test, observations),
+        modelled=fitted.modelled,
+        secants=fitted.secants,
+        increments=fitted.increments,
+        law=fitted.choice,
+        path=fitted.law.path,
+        balances=pressed.balances,
+        motors={axis: motor_parameters(balance, drives[axis]) for axis, balance in pressed.balances.items()},
+        dynamometer=measured,
+        rig=None if rig_test is None else _with_rig(fitted.modelled[-1], rig_test),
+        verdict=(),
     )
+    return replace(found, verdict=map_verdict(found, setup.drives, untested))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Fitted:
+    """What the curves of a test say."""
+
+    law: Law
+    choice: LawChoice
+    modelled: tuple[Stiffness, ...]
+    secants: tuple[Stiffness, ...]
+    increments: tuple[Stiffness, ...]
+
+
+def _fitted(test: MachineTest, observations: Sequence[Observations]) -> _Fitted:
+    curves = curves_of(_with_stated(test, observations))
+    law, choice = choose_law(curves)
+    mean = curves.mean(curves.force)
+    at = mean[-1:] if law.name == "constant" else mean
+    runs = np.bincount(curves.level)[:, np.newaxis]
+    variance, freedom = within_levels(curves, law.compliance(curves.force))
+    if freedom < 1:
+        variance, freedom = law.variance, law.degrees_of_freedom
+    step = np.diff(mean, axis=0)
+
+    def slope(change: int | None) -> Array:
+        return fit_law(curves, law.name, law.powers, change).compliance(at)
+
+    def secant(change: int | None) -> Array:
+        force, reading = (curves.mean(values) for values in points(curves, change))
+        return np.asarray(reading / force)
+
+    def increment(change: int | None) -> Array:
+        force, reading = (curves.mean(values) for values in points(curves, change))
+        return np.asarray(np.diff(reading, axis=0) / np.diff(force, axis=0))
+
+    levels = [(level,) for level in curves.levels]
+    pairs = list(zip(curves.levels, curves.levels[1:], strict=False))
+    return _Fitted(
+        law=law,
+        choice=choice,
+        modelled=_kinds(
+            MODELLED,
+            [()] if law.name == "constant" else levels,
+            curves,
+            slope,
+            (_slope_scatter(curves, law, at), law.degrees_of_freedom),
+        ),
+        secants=_kinds(SECANT, levels, curves, secant, (np.sqrt(variance / runs) / mean, freedom)),
+        increments=_kinds(
+            INCREMENT,
+            pairs,
+            curves,
+            increment,
+            (np.sqrt(variance * (1 / runs[1:] + 1 / runs[:-1])) / step, freedom),
+        ),
+    )
+
+
+def _kinds(
+    kind: str,
+    forces: Sequence[tuple[float, ...]],
+    curves: Curves,
+    compliance: Callable[[int | None], Array],
+    scatter: tuple[Array, int],
+) -> tuple[Stiffness, ...]:
+    """A stiffness of one kind at each of some levels, with what every change of the curves does to it."""
+    values = compliance(None)
+    moved = np.array([compliance(n) - values for n in range(len(curves.changes))]).reshape(-1, *values.shape)
+    size, freedom = scatter
+    known = size if freedom > 0 else np.full(values.shape, np.inf)
+    return tuple(
+        Stiffness(
+            kind=kind,
+            force=force,
+            angle=curves.angle,
+            compliance=values[n],
+            scatter=known[n],
+            scatter_freedom=freedom,
+            systematic=moved[:, n],
+            labels=tuple(change.label for change in curves.changes),
+            freedoms=tuple(change.degrees_of_freedom for change in curves.changes),
+        )
+        for n, force in enumerate(forces)
+    )
+
+
+def _slope_scatter(curves: Curves, law: Law, at: Array) -> Array:
+    """Standard uncertainty of the slope of a law at forces, shape of the forces, from the scatter about the law."""
+    design = np.stack([*(curves.force.T**power for power in law.powers), np.ones(curves.force.T.shape)], axis=-1)
+    norms = np.linalg.norm(design, axis=1, keepdims=True)
+    root = np.linalg.pinv(design / norms) / norms.swapaxes(1, 2)
+    slopes = [power * at.T ** (power - 1) for power in law.powers]
+    gradient = np.stack([*slopes, np.zeros(at.T.shape)], axis=-1)
+    return np.asarray((np.linalg.norm(gradient @ root, axis=2) * np.sqrt(law.variance)[:, np.newaxis]).T)
+
+
+def _with_stated(test: MachineTest, observations: Sequence[Observations]) -> Sequence[Observations]:
+    """The observations with the systematic influences that the test states beside those of drives and set-up."""
+    if not test.influences:
+        return observations
+    own = len(observations[0].influences)
+    known = effects_of(test, systems_of(test, observations))[own:]
+    return [
+        replace(
+            run,
+            influences=(
+                *run.influences,
+                *(
+                    ObservedInfluence(
+                        effect.influence.label,
+                        effect.influence.standard_uncertainty,
+                        effect.influence.degrees_of_freedom,
+                        effect.stretch[k] * run.wrench,
+                        np.zeros(len(run)) if effect.shift is None else -effect.shift[k],
+                    )
+                    for effect in known
+                ),
+            ),
+        )
+        for k, run in enumerate(observations)
+    ]
 
 
 def _roller_of(test: MachineTest) -> BallRoller:
@@ -152,75 +203,28 @@ def _roller_of(test: MachineTest) -> BallRoller:
     return test.setup
 
 
-def _asking_for_map(test: MachineTest) -> MachineTest:
-    """The test with its question put to the map; the two do not mix."""
-    return replace(test, question=replace(test.question, parameters=(PRESET,), prefer=(), reciprocal=False))
-
-
-def _stiffness(budget: Budget, force: float | None, volumetric: Identification) -> Stiffness:
-    """Compliance by direction, of a solution of the map."""
-    names = [f"V_{degrees:03d}" for degrees in NODES]
-    missing = [name for name in names if name not in budget.labels]
-    mixed = [p.name for p in volumetric.parameters if p.name in names and not p.separated]
-    if missing or mixed:
-        raise UnsupportedError(
-            f"compliance and path are not told apart in {len({*missing, *mixed})} of {len(names)} directions: "
-            f"it takes two engagements all around the ball"
-        )
-    at = [budget.labels.index(name) for name in names]
-    return Stiffness(
-        force=force,
-        angle=np.deg2rad(NODES),
-        compliance=budget.interval[at].mean(axis=1),
-        standard_uncertainty=budget.standard_uncertainty[at],
-        interval=budget.interval[at],
-    )
-
-
-def _by_level(test: MachineTest, volumetric: Identification) -> tuple[Stiffness, ...]:
-    """The map from the least level and one other at a time; none where these are too few runs for an uncertainty."""
-    asked = _asking_for_map(test)
-    whole = systems_of(asked)
-    least, *others = whole.levels
-    found = []
-    for force in others:
-        systems = replace(whole, runs=whole.at(least, force))
-        retained = confounding_of(asked, systems).retained
-        try:
-            solution = solve_by_run([run.factor for run in systems.runs], retained)
-        except DegreesOfFreedomError:
-            solution = solve(merged(systems.runs), retained)
-        budget = uncertainty_budget(systems, solution, effects_of(asked, systems))
-        found.append(_stiffness(budget, force, volumetric))
-    return tuple(found)
-
-
-def _against_dynamometer(test: MachineTest, setup: BallRoller) -> tuple[ForceAgreement | None, Check | None]:
-    """The force from the currents against the columns `force_x` and so on, axis by axis; nothing without them.
+def _against_dynamometer(test: MachineTest, pressed: Pressed) -> tuple[ForceAgreement | None, str]:
+    """The force from the currents against the columns `force_x` and so on, axis by axis; else why it was not compared.
 
     Each goes once to and fro in a turn, so that the records align; where they do not, they are held against each other on
     the clock of the run.
     """
     gauges = {"force_x": 0, "force_y": 1, "force_z": 2}
-    if not any(gauges.keys() & run.columns.keys() for run in test.runs):
-        return None, None
-    pairs = []
     runs = {run.name: run for run in test.runs}
-    for name, (track, contact) in setup.contacts(test.machine, test.runs).items():
-        columns = runs[name].columns
+    pairs = []
+    for name, contact in pressed.forces.items():
+        columns, track = runs[name].columns, pressed.tracks[name]
         for gauge, k in gauges.items():
             if gauge in columns:
                 measured = np.interp(track.time, columns["time"], columns[gauge])
                 own = contact.force * track.direction[:, k]
                 pairs.append((ForceRecord(track.time, own), ForceRecord(track.time, measured)))
     if not pairs:
-        return None, None
-    name = "force agrees with the dynamometer"
+        return None, ""
     try:
-        agreement = _compared(pairs)
+        return _compared(pairs), ""
     except UnsupportedError as error:
-        return None, Check(name, False, {"said": f"This could not be judged: {error}."})
-    return agreement, Check(name, agreement.agrees, {"said": agreement.sentence})
+        return None, str(error)
 
 
 def _compared(pairs: Sequence[tuple[ForceRecord, ForceRecord]]) -> ForceAgreement:
@@ -230,56 +234,17 @@ def _compared(pairs: Sequence[tuple[ForceRecord, ForceRecord]]) -> ForceAgreemen
         return compare_forces(pairs, 0.0)
 
 
-def _with_rig(before: Identification, test: MachineTest) -> RigCheck:
+def _with_rig(before: Stiffness, test: MachineTest) -> RigCheck:
     """Eq. 6.16 in every direction; what drives and set-up share between the two tests does not count twice."""
-    after = identify(_asking_for_map(test))
-    without, measured = (_stiffness(found.budget, None, found) for found in (before, after))
-    rigs, angle = _roller_of(test).rig, without.angle
-    scatter = [_scatter(found) for found in (before, after)]
-    own = np.linalg.norm([scatter[0], *(rig.standard_uncertainty * rig.share(angle) for rig in rigs)], axis=0)
+    after = _fitted(test, test.observations()).modelled[-1]
+    rigs = _roller_of(test).rig
+    own = np.linalg.norm([before.scatter, *(rig.standard_uncertainty * rig.share(before.angle) for rig in rigs)], axis=0)
+    systematic = [np.linalg.norm(found.systematic, axis=0) for found in (before, after)]
     return rig_check(
-        measured.compliance,
-        scatter[1],
-        with_rig(without.compliance, np.sum([rig.along(angle) for rig in rigs], axis=0)),
+        after.compliance,
+        after.scatter,
+        with_rig(before.compliance, np.sum([rig.along(before.angle) for rig in rigs], axis=0)),
         own,
-        freedom=(_freedom(after), _freedom(before)),
-        u_shared=np.abs(_systematic(after) - _systematic(before)),
+        freedom=(after.scatter_freedom, before.scatter_freedom),
+        u_shared=np.abs(systematic[1] - systematic[0]),
     )
-
-
-def _lines(found: Identification, name: str) -> Mapping[str, float]:
-    return {line.label: line.contribution for line in found.budget.lines[found.budget.labels.index(name)]}
-
-
-def _scatter(found: Identification) -> Array:
-    return np.array([_lines(found, f"V_{degrees:03d}")[SCATTER] for degrees in NODES])
-
-
-def _systematic(found: Identification) -> Array:
-    """Standard uncertainty of what is alike in all tests with these drives and this set-up, by direction."""
-    lines = (_lines(found, f"V_{degrees:03d}") for degrees in NODES)
-    return np.array([np.linalg.norm([size for label, size in line.items() if label != SCATTER]) for line in lines])
-
-
-def _freedom(found: Identification) -> Array:
-    at = [found.solution.labels.index(f"V_{degrees:03d}") for degrees in NODES]
-    return np.asarray(found.solution.degrees_of_freedom[at])
-
-
-def _rig_verdict(rig: RigCheck | None) -> Check | None:
-    if rig is None:
-        return None
-    share, worst = float(np.mean(rig.agrees)), int(np.argmax(np.abs(rig.normalised_error)))
-    return Check(
-        "compliance with the rig as predicted",
-        share >= rig.coverage - 0.1,
-        {
-            "said": f"Measured and predicted compliance agree within their uncertainty in {share:.0%} of {len(NODES)} directions; "
-            f"at worst, at {NODES[worst]} degrees, the normalised error is {rig.normalised_error[worst]:.2f}."
-        },
-    )
-
-
-def _inverse(compliance: Array) -> Array:
-    positive = compliance > 0
-    return np.where(positive, 1.0 / np.where(positive, compliance, 1.0), np.inf)

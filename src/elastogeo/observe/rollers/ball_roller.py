@@ -7,7 +7,7 @@ fit: `engagement = F (C_machine + C_setup) + what the path is off` (Eqs. 6.1 to 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -43,7 +43,7 @@ from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.measurement import Respond, Run
 from elastogeo.observe.observations import Observations, check_observations
-from elastogeo.observe.rollers.force import ContactForce, contact_force, observed_influences
+from elastogeo.observe.rollers.force import ContactForce, contact_force, drives_against, observed_influences
 from elastogeo.observe.rollers.rig import Rig
 from elastogeo.observe.rollers.track import Track, moving, track_of
 
@@ -59,6 +59,25 @@ UNCLAIMED = 0.01
 
 SAME_ENGAGEMENT = 1e-6
 """Commanded engagements [mm] that differ by less are one level."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pressed:
+    """What the recordings of a test amount to before they are observations.
+
+    Attributes
+    ----------
+    tracks : mapping of str to Track
+        Of every run, by its name.
+    balances : mapping of str to TorqueBalance
+        Of every drive, by its axis.
+    forces : mapping of str to ContactForce
+        Of every run with an engagement.
+    """
+
+    tracks: Mapping[str, Track]
+    balances: Mapping[str, TorqueBalance]
+    forces: Mapping[str, ContactForce]
 
 
 @instrument("ball-roller")
@@ -158,13 +177,19 @@ class BallRoller:
 
         Runs of one commanded engagement are one level, of the mean of their forces.
         """
-        contacts = self.contacts(machine, runs)
-        loaded = [run for run in runs if run.name in contacts]
-        levels = {run.name: _level(run, loaded, contacts) for run in loaded}
-        return tuple(self._observations(machine, run, *contacts[run.name], levels[run.name]) for run in loaded)
+        return self.observed(machine, runs, self.pressed(machine, runs))
 
-    def contacts(self, machine: Machine, runs: Sequence[Run]) -> dict[str, tuple[Track, ContactForce]]:
-        """Track and force of every run with an engagement, by its name.
+    def observed(self, machine: Machine, runs: Sequence[Run], pressed: Pressed) -> tuple[Observations, ...]:
+        """The observations of the runs with an engagement, of what was worked out of them before."""
+        loaded = [run for run in runs if run.name in pressed.forces]
+        levels = {run.name: _level(run, loaded, pressed.forces) for run in loaded}
+        return tuple(
+            self._observations(machine, run, pressed.tracks[run.name], pressed.forces[run.name], levels[run.name])
+            for run in loaded
+        )
+
+    def pressed(self, machine: Machine, runs: Sequence[Run]) -> Pressed:
+        """Tracks of all runs, balances of all drives, forces of every run with an engagement.
 
         Raises
         ------
@@ -180,7 +205,7 @@ class BallRoller:
         forces = {
             name: contact_force(machine, tracks[name], self.drives, balances, self.harmonics, self._tool) for name in loaded
         }
-        return {name: (tracks[name], force) for name, force in forces.items()}
+        return Pressed(tracks, balances, forces)
 
     def torque_balances(
         self, machine: Machine, runs: Sequence[Run], tracks: dict[str, Track] | None = None
@@ -245,7 +270,7 @@ class BallRoller:
             columns[f"position_{drive.axis.lower()}"] = imperfection.noisy(position, random)
             acceleration = np.zeros(len(angle)) if commands.acceleration is None else commands.acceleration[:, joint]
             effort = balance_effort(self._true(drive), drive, commands.velocity[:, joint], acceleration)
-            effort += effort_from_force(drive, held[:, k])
+            effort += effort_from_force(drive, held[:, k], held[:, k] * commands.velocity[:, joint] > 0)
             noise = imperfection.current_noise * random.standard_normal(len(angle))
             columns[f"current_{drive.axis.lower()}"] = current_from_effort(drive, effort) + noise
         return replace(run, columns=columns)
@@ -310,15 +335,24 @@ class BallRoller:
         return identify_balance(records, model, known_terms(known, drive) if known else {}).balance
 
     def _loaded_record(self, machine: Machine, drive: FeedDrive, run: Run, track: Track) -> DriveRecord:
-        """The record of a loaded run, with the direction pattern of its load (Eqs. 6.7, 6.8), which may go with the turn."""
-        pattern = -joint_forces(machine, track.commands, track.push, [drive.axis], self._tool)[:, 0]
+        """The record of a loaded run, with the direction pattern of its load (Eqs. 6.7, 6.8), which may go with the turn.
+
+        What the drive feels of it when driven back is a load of its own where the drive loses power: else the step between
+        the two, which rests on the stated losses alone, would tell the load from the inertia.
+        """
+        held = -joint_forces(machine, track.commands, track.push, [drive.axis], self._tool)[:, 0]
+        driving = drives_against(machine, track, drive.axis, self._tool)
+        pattern = held * drive.force_per_effort() / drive.force_per_effort(driving)
         level = f"load at {1000 * (run.engagement or 0.0):g} um"
         waves = {
             f"{level}, {name} {order}": pattern * wave(order * track.angle)
             for order in LOAD_ORDERS
             for name, wave in (("cos", np.cos), ("sin", np.sin))
         }
-        return replace(track.records[drive.axis], disturbance={level: pattern, **waves})
+        whole = {level: pattern}
+        if drive.efficiency < 1:
+            whole = {level: pattern * driving, f"{level}, driven back": pattern * ~driving}
+        return replace(track.records[drive.axis], disturbance=whole | waves)
 
     def _observations(self, machine: Machine, run: Run, track: Track, contact: ContactForce, level: float) -> Observations:
         """The readings that count: at which the contact's force is known."""
@@ -351,10 +385,10 @@ class BallRoller:
         return check_observations(observations)
 
 
-def _level(run: Run, loaded: Sequence[Run], contacts: dict[str, tuple[Track, ContactForce]]) -> float:
+def _level(run: Run, loaded: Sequence[Run], forces: Mapping[str, ContactForce]) -> float:
     """Mean force [N] of all runs of one commanded engagement."""
     alike = [other for other in loaded if abs((other.engagement or 0.0) - (run.engagement or 0.0)) < SAME_ENGAGEMENT]
-    return float(np.mean([contacts[other.name][1].force.mean() for other in alike]))
+    return float(np.mean([forces[other.name].force.mean() for other in alike]))
 
 
 def _balanced_force(blank: Observations, respond: Respond, engagement: float, setup: SetupCompliance, parts: Array) -> Array:

@@ -11,12 +11,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 
 from elastogeo.drive import (
     FeedDrive,
     TorqueBalance,
     force_from_effort,
+    joint_forces,
     motion_columns,
     tool_force,
 )
@@ -89,18 +91,32 @@ def contact_force(
     influences: list[tuple[str, float, float, Array]] = []
     for drive in drives:
         axis, balance, record = drive.axis, balances[drive.axis], track.records[drive.axis]
-        samples = force_from_effort(drive, balance.disturbance(record))
+        driving = drives_against(machine, track, axis, tool)
+        samples = force_from_effort(drive, balance.disturbance(record), driving)
         held = smooth[axis](samples)
         scatter += float(np.mean(np.square(samples - held)[_counts(track, axis, balance.model.least_speed or 0.0)]))
         part = along(axis, held)
         force += part
         if drive.relative_uncertainty:
             influences.append((f"force per current of {axis}", drive.relative_uncertainty, np.inf, part))
+        if drive.back_uncertainty:
+            back = along(axis, smooth[axis](np.where(driving, 0.0, -samples)))
+            influences.append((f"losses of {axis} when driven back", drive.back_uncertainty, np.inf, back))
         columns = motion_columns(record, balance.model)[1]
         for size, freedom, change in _independent(balance):
-            moved = -force_from_effort(drive, columns @ change)
+            moved = -force_from_effort(drive, columns @ change, driving)
             influences.append((f"friction and inertia of {axis}", size, freedom, along(axis, smooth[axis](moved))))
     return ContactForce(force, float(np.sqrt(scatter)), tuple(influences))
+
+
+def drives_against(machine: Machine, track: Track, axis: str, tool: Array | None = None) -> NDArray[np.bool_]:
+    """Where the motor of an axis drives the roller against the ball, shape (m,); elsewhere the ball drives it back.
+
+    The ball can only push the roller away. So the direction of the power follows from that of the motion alone, and no noise
+    of the current decides it.
+    """
+    pushed = joint_forces(machine, track.commands, track.push, [axis], tool)[:, 0]
+    return np.asarray(pushed * track.records[axis].velocity < 0)
 
 
 def observed_influences(

@@ -1,10 +1,13 @@
 """`elastogeo.stiffness/1`: the stiffness map of a ball-roller test.
 
 test, verdict : as in `envelope`
-overall : {force_N: null, directions}
-levels : [{force_N, directions}], from the least level to each other
+law : {supported, alike, misfit_p, misfit_um, laws: [{name, exponent, rmse_um, left_out_um, better}]}
+overall : {kind, force_N, directions}: what stands for the machine: the only one, that at the greatest engagement, or, where
+    no law holds, the last increment
+modelled, secants, increments : [{kind, force_N, directions}]; `force_N` lists the level, or the two, or none for all
     directions : [{angle_deg, compliance_um_per_N, standard_uncertainty_um_per_N, interval95_um_per_N, stiffness_N_per_um,
     stiffness_interval95_N_per_um}]; null for a bound that no data give
+path : [{angle_deg, path_um}], what the law leaves to the path
 balances : [{axis, parameter, value, standard_uncertainty, degrees_of_freedom, unit}], of the drives, at the motor's shaft
 dynamometer : {gain, gain_interval95, offset_N, offset_interval95_N, rms_difference_N, maximum_difference_N, delays_s,
     agrees}, or null
@@ -19,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from elastogeo.drive import ForceAgreement, RigCheck
-from elastogeo.identification import Stiffness, StiffnessMap
+from elastogeo.identification import LawChoice, Stiffness, StiffnessMap
 from elastogeo.report.as_json.envelope import UM, document, tested, verdict_entries
 from elastogeo.report.as_json.identification import identification_json
 
@@ -33,7 +36,14 @@ def stiffness_json(found: StiffnessMap) -> dict[str, Any]:
         {
             "test": tested(found.joints.test, found.joints.reference_force),
             "overall": _stiffness(found.overall),
-            "levels": [_stiffness(level) for level in found.levels],
+            "modelled": [_stiffness(level) for level in found.modelled],
+            "secants": [_stiffness(level) for level in found.secants],
+            "increments": [_stiffness(level) for level in found.increments],
+            "law": _law(found.law),
+            "path": [
+                {"angle_deg": float(np.rad2deg(angle)), "path_um": float(path) * UM}
+                for angle, path in zip(found.overall.angle, found.path, strict=True)
+            ],
             "balances": [
                 {
                     "axis": axis,
@@ -54,17 +64,38 @@ def stiffness_json(found: StiffnessMap) -> dict[str, Any]:
     )
 
 
-def _stiffness(found: Stiffness) -> dict[str, Any]:
+def _law(law: LawChoice) -> dict[str, Any]:
     return {
+        "supported": law.supported,
+        "alike": law.alike,
+        "misfit_p": law.misfit,
+        "misfit_um": law.misfit_size * UM,
+        "laws": [
+            {
+                "name": score.name,
+                "exponent": score.exponent,
+                "rmse_um": score.rmse * UM,
+                "left_out_um": score.left_out * UM,
+                "better": score.better,
+            }
+            for score in law.scores
+        ],
+    }
+
+
+def _stiffness(found: Stiffness) -> dict[str, Any]:
+    intervals, bounds = found.interval, found.stiffness_interval
+    return {
+        "kind": found.kind,
         "force_N": found.force,
         "directions": [
             {
                 "angle_deg": float(np.rad2deg(found.angle[k])),
                 "compliance_um_per_N": found.compliance[k] * UM,
                 "standard_uncertainty_um_per_N": found.standard_uncertainty[k] * UM,
-                "interval95_um_per_N": found.interval[k] * UM,
+                "interval95_um_per_N": intervals[k] * UM,
                 "stiffness_N_per_um": found.stiffness[k] / UM,
-                "stiffness_interval95_N_per_um": found.stiffness_interval[k] / UM,
+                "stiffness_interval95_N_per_um": bounds[k] / UM,
             }
             for k in range(len(found.angle))
         ],

@@ -1,0 +1,1 @@
+"""A ball-roller test in words."""
