@@ -17,6 +17,7 @@ from elastogeo.identification import identify, systems_of, what_reciprocity_buys
 from elastogeo.observe import Imperfection, KnownInfluence, MachineTest
 from elastogeo.report import sentence_of
 from elastogeo.sources import simulate
+from studies.bar_tests import make_test as study_test
 
 MakeTest = Callable[..., MachineTest]
 TRUTH = {"C_XXX": 6e-5, "C_YYY": 5e-5, "E_XX1": -1e-4, "E_Xt0": 0.004}
@@ -61,7 +62,9 @@ def test_outliers_move_the_robust_estimate_less_and_the_verdict_counts_them(make
     truth = np.array([TRUTH[name] for name in identify(test).solution.labels])
     plain, robust = identify(test), identify(with_question(test, robust=True))
     assert (np.abs(robust.solution.values / truth - 1) < 0.2 * np.abs(plain.solution.values / truth - 1).max()).all()
-    sentence = next(sentence_of(check) for check in robust.verdict if check.name == "outliers")
+    check = next(check for check in robust.verdict if check.name == "free of outliers")
+    sentence = sentence_of(check)
+    assert check.passed is False
     assert "readings count less than one" in sentence
     assert "2.6 %" in sentence
 
@@ -98,8 +101,25 @@ def test_random_draws_stand_beside_the_first_order(make_test: MakeTest) -> None:
     result = identify(replace(noisy(make_test, repeats=4), influences=known))
     assert result.agreement is not None
     check = next(check for check in result.verdict if check.name == "first order enough")
-    assert "Monte Carlo trials" in sentence_of(check)
+    assert check.passed
+    assert "The intervals hold 95% of" in sentence_of(check)
     k = result.solution.labels.index("C_XXX")
     drawn = result.agreement.draws
     assert_allclose(drawn.standard_uncertainty[k], result.budget.standard_uncertainty[k], rtol=0.1)
     assert identify(noisy(make_test)).agreement is None
+
+
+def test_few_degrees_of_freedom_are_no_fault_of_first_order() -> None:
+    """The audit's nine of nine: seven runs and a force scale, all normal. A rectangular bar length that rules is one."""
+    scale = KnownInfluence("force-scale", "gauge", relative=0.01)
+    bar = KnownInfluence("bar-length", "bar", length=0.01, distribution="rectangular")
+    test = study_test("7 runs", noise="of the run", question=("C_XXX", "C_YYY", "E_XX1", "E_YY1", "E_Xt0", "E_Yt0"))
+    (calm,) = [c for c in identify(replace(test, influences=(scale,))).verdict if c.name == "first order enough"]
+    assert calm.passed
+    result = identify(replace(test, influences=(scale, bar)))
+    (alarm,) = [c for c in result.verdict if c.name == "first order enough"]
+    assert set(alarm.facts["apart"]) == {"E_XX1", "E_YY1"}
+    assert alarm.facts["apart"]["E_XX1"]["held"] > 0.98
+    assert result.agreement is not None
+    low, high = result.agreement.draws.interval[result.solution.labels.index("E_XX1")]
+    assert f"E_XX1 {1e6 * low:.4g} to {1e6 * high:.4g} µm/m" in sentence_of(alarm)

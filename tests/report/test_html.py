@@ -137,7 +137,7 @@ def test_what_must_be_said_openly(rich, rich_page, poor, geometric) -> None:
 
 
 def test_residuals_with_structure_are_said_beside_the_uncertainties(rich, rich_page) -> None:
-    left = {"rmse": 1e-4, "by_run": False, "runs": 2, "structured": 1, "run": "r", "order": 5, "amplitude": 1e-4}
+    left = {"rmse": 1e-4, "shared": None, "runs": 2, "structured": 1, "run": "r", "order": 5, "amplitude": 1e-4}
     structured = Check("residuals without structure", False, left)
     checks = tuple(structured if check.name == structured.name else check for check in rich.verdict)
     assert "The true uncertainty is larger than U" in words_of(html_report(replace(rich, verdict=checks)))

@@ -30,6 +30,7 @@ from elastogeo.identification.result import Identification, Level, Local, Parame
 from elastogeo.identification.rollers.laws import LawChoice, LawScore
 from elastogeo.identification.rollers.result import Stiffness, StiffnessMap
 from elastogeo.identification.rollers.stiffness_map import map_stiffness
+from elastogeo.identification.shared_structure import shared_harmonic
 from elastogeo.identification.static_tests.assessment import evaluate_static
 from elastogeo.identification.static_tests.cartesian import (
     CartesianCompliance,
@@ -143,6 +144,7 @@ __all__ = [
     "run_dispersion",
     "run_systems",
     "same_force",
+    "shared_harmonic",
     "static_line",
     "strongest_harmonic",
     "systems_of",

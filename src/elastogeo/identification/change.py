@@ -28,6 +28,9 @@ _KNOWN = 1e9
 _ROUNDING = 1e-12
 """Share of the readings that is their rounding error at most: less scatter than that is none."""
 
+_DEPENDENT = 1e-10
+"""Share of the greatest eigenvalue of a correlation up to which estimates depend on one another."""
+
 _ALIKE = 1e-6
 """Relative difference of the products of columns up to which one run repeats another."""
 
@@ -41,11 +44,9 @@ class Change:
     labels : tuple of str
         Parameters whose differences are tested.
     statistic : float
-        F-distributed with `q` and `degrees_of_freedom` if nothing changed. Of local estimates without repeated runs,
-        `d^T V^-1 d / q` over the variance that the runs show beyond these very differences; of two tests, Hotelling's, with
-        V from both. **Where V is not known well enough as a whole** (of two tests, if their degrees of freedom are not twice
-        the differences; of local estimates, if runs are repeated, which shows the scatter of each parameter by itself), it
-        is that of the surest parameter, and the p-value allows for their number (Bonferroni).
+        F-distributed with `q` and `degrees_of_freedom` if nothing changed. Of two tests, Hotelling's, with V from both. **Of
+        local estimates, and of two tests whose degrees of freedom are not twice the differences**, it is that of the surest
+        parameter, and the p-value allows for their number (Bonferroni).
     q : int
         How many differences.
     degrees_of_freedom : float
@@ -103,7 +104,9 @@ def _rounding(runs: Sequence[Factor]) -> float:
     return (_ROUNDING * float(np.linalg.norm([run.z for run in runs]))) ** 2
 
 
-def local_change(runs: Sequence[Factor], labels: Sequence[str], choices: Sequence[Sequence[int]]) -> Change:
+def local_change(
+    runs: Sequence[Factor], labels: Sequence[str], choices: Sequence[Sequence[int]], loads: Sequence[float]
+) -> Change:
     """Whether estimates from choices of runs differ by more than their uncertainty.
 
     Parameters
@@ -112,25 +115,29 @@ def local_change(runs: Sequence[Factor], labels: Sequence[str], choices: Sequenc
     labels : sequence of str, length p
     choices : sequence of sequence of int
         For each local estimate the runs it uses; they may overlap.
+    loads : sequence of float
+        For each, how much load it was made under: what it goes with if it changes with the load.
 
     Returns
     -------
     Change
-        Of each local estimate against the first; the joint covariance has the runs they share. If runs are repeated, each
-        parameter is judged by its own scatter between repeats, whatever shape a run's scatter has. **If none is, the
-        scatter counts as equally large in all shapes of a trace**, and where it is not, alarms are false more often.
+        Each parameter by itself, by the scatter of runs in just the shape of the trace that it reads, whatever shape the
+        scatter has. If runs are repeated, any difference counts, against the scatter between repeats. **If none is, only a
+        change in proportion to `loads` does**, against what is left of the differences beside it: any other change looks
+        just like runs that scatter.
 
     Raises
     ------
     UnsupportedError
         If there are fewer than two local estimates.
+    DegreesOfFreedomError
+        If no run is repeated and there are fewer than three local estimates that do not depend on one another.
     """
     if len(choices) < 2:
         raise UnsupportedError(
             "to say whether local estimates differ takes two of them; measure at three force levels or more"
         )
     chosen = [select(run, labels) for run in runs]
-    left, freedom = _between(chosen)
     norms = merge(*chosen).column_norms
     grams = [(run.R / norms).T @ (run.R / norms) for run in chosen]
     inverses: list[Array] = [np.asarray(np.linalg.inv(sum(grams[r] for r in choice))) for choice in choices]
@@ -138,12 +145,13 @@ def local_change(runs: Sequence[Factor], labels: Sequence[str], choices: Sequenc
     covariance = np.block(
         [[inverses[i] @ _shared(grams, a, b) @ inverses[j] for j, b in enumerate(choices)] for i, a in enumerate(choices)]
     )
+    floor = _rounding(chosen)
     contrasts = _contrasts(values, covariance)
     scores = [(run.R / norms).T @ run.z for run in chosen]
     variances, repeats = _own_scatter(scores, grams, inverses, choices)
     if repeats >= contrasts.rank(range(0, contrasts.size, len(labels))):
-        return _tested_by_repeats(contrasts, np.maximum(variances, _rounding(chosen)), repeats, labels)
-    return _tested(contrasts, left, freedom, labels)
+        return _tested_by_repeats(contrasts, np.maximum(variances, floor), repeats, labels)
+    return _tested_by_trend(values, covariance, np.asarray(loads, dtype=float), floor, labels)
 
 
 def difference(one: Solution, other: Solution, shared: Array | None = None) -> Change:
@@ -271,28 +279,34 @@ def _tested_by_repeats(contrasts: _Contrasts, variances: Array, freedom: int, la
     return Change(tuple(labels), float(statistics[surest]), found[surest][1], float(freedom), p_value, p_values)
 
 
-def _tested(contrasts: _Contrasts, left: float, freedom: float, labels: Sequence[str]) -> Change:
-    """All differences, and those of each parameter, by the scatter between the runs in all shapes of a trace.
+def _tested_by_trend(values: Array, covariance: Array, loads: Array, floor: float, labels: Sequence[str]) -> Change:
+    """Each parameter by its trend with the load, among its own local estimates; all together by the surest of them.
 
-    The differences are part of that scatter, so that they are judged by what is left of it without them.
+    Generalised least squares of a constant and the load: the local estimates share runs, so that they are whitened first.
     """
-
-    def judged(rows: Sequence[int]) -> tuple[float, int, float]:
-        value, size = contrasts.value(rows)
-        rest = freedom - size
-        if rest <= 0:
-            raise DegreesOfFreedomError(f"the runs leave no degree of freedom to judge {size} differences by")
-        return value / size / (max(left - value, _ROUNDING * left) / rest), size, rest
-
-    statistic, q, rest = judged(range(contrasts.size))
-    each = {label: judged(range(k, contrasts.size, len(labels))) for k, label in enumerate(labels)}
-    p_values = {label: float(fdtrc(size, others, value)) for label, (value, size, others) in each.items()}
-    return Change(tuple(labels), statistic, q, rest, float(fdtrc(q, rest, statistic)), p_values)
+    p, statistics, freedoms = len(labels), [], []
+    for k in range(p):
+        spreads, vectors = np.linalg.eigh(covariance[k::p, k::p])
+        free = spreads > _DEPENDENT * spreads[-1]
+        white = vectors[:, free].T / np.sqrt(spreads[free])[:, np.newaxis]
+        y, flat, trend = white @ values[:, k], white.sum(axis=1), white @ (loads / np.abs(loads).max())
+        freedom = int(free.sum()) - 2
+        if freedom < 1:
+            raise DegreesOfFreedomError(f"{len(values)} local estimates leave no degree of freedom to judge a trend by")
+        y, trend = (v - flat * (flat @ v) / (flat @ flat) for v in (y, trend))
+        along = float(trend @ y) ** 2 / float(trend @ trend)
+        statistics.append(along / max((float(y @ y) - along) / freedom, floor))
+        freedoms.append(freedom)
+    each = [float(fdtrc(1, freedom, F)) for freedom, F in zip(freedoms, statistics, strict=True)]
+    surest = int(np.argmin(each))
+    p_value = min(1.0, p * each[surest])
+    p_values = dict(zip(labels, each, strict=True))
+    return Change(tuple(labels), float(statistics[surest]), 1, float(freedoms[surest]), p_value, p_values)
 
 
 def _quadratic(delta: Array, correlation: Array) -> tuple[float, int]:
     """`d^T V^+ d` and the rank of V: differences that depend on one another count once."""
     values, vectors = np.linalg.eigh(correlation)
-    free = values > 1e-10 * values[-1]
+    free = values > _DEPENDENT * values[-1]
     along = vectors[:, free].T @ delta
     return float(np.sum(along**2 / values[free])), int(free.sum())

@@ -12,7 +12,8 @@ from elastogeo.machine import Array
 HARMONICS = range(1, 13)
 """Orders, per turn, at which residuals are searched for structure."""
 
-_FALSE_ALARM = 0.01
+FALSE_ALARM = 0.01
+"""Rate at which residuals without structure may be taken to have one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +26,8 @@ class Harmonic:
         Per turn.
     amplitude : float [mm]
     significant : bool
-        Whether white noise of the size that neighbouring readings show would produce it once in a hundred tests at most.
+        Whether noise would produce it once in a hundred tests at most: of one run, white noise of the size that
+        neighbouring readings show; of several runs, what they scatter.
     """
 
     order: int
@@ -62,7 +64,7 @@ def strongest_harmonic(residual: Array, angle: Array, looks: int = 1) -> Harmoni
     fits = [_amplitude(residual, angle, order) for order in HARMONICS]
     best = int(np.argmax(fits))
     sigma2 = float(np.mean(np.diff(residual) ** 2) / 2)
-    limit = 2 * sigma2 / len(residual) * float(chdtri(2, _FALSE_ALARM / len(HARMONICS) / looks))
+    limit = 2 * sigma2 / len(residual) * float(chdtri(2, FALSE_ALARM / len(HARMONICS) / looks))
     return Harmonic(HARMONICS[best], fits[best], fits[best] ** 2 > limit)
 
 

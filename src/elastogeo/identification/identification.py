@@ -33,16 +33,17 @@ from elastogeo.identification.physics import Consistency, Reciprocity, consisten
 from elastogeo.identification.preference import retaining_order
 from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Trace
 from elastogeo.identification.robust import downweighted
+from elastogeo.identification.shared_structure import shared_harmonic
 from elastogeo.identification.systems import RunSystem, Systems, force_levels, merged, noise_of, run_systems, same_force
 from elastogeo.identification.verdict import (
     above_resolution,
     conditioned,
     first_order_enough,
     forces_distinct,
+    free_of_outliers,
     geometry_constant,
     identifiable,
     model_adequate,
-    outliers,
     residuals_unstructured,
     separated,
     uncertainty_by_run,
@@ -157,16 +158,18 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
         result, physics = _held_against_physics(result)
     around = result.traces if result.test.setup.pose_quantity == "angle" else ()
     harmonics = {t.run: strongest_harmonic(t.measured - t.predicted, t.pose, len(around)) for t in around}
+    shared = shared_harmonic(systems.runs, result.solution.labels) if around and result.by_run else None
+    robust = result.test.question.robust
     both = len({source.elastic for source in systems.sources}) == 2
     verdict = (
         identifiable(result.confounding),
         forces_distinct(systems.applied) if any(source.elastic for source in systems.sources) else None,
         separated(parameters) if both else None,
         conditioned(result.confounding),
-        residuals_unstructured(harmonics, result.rmse, result.by_run) if around else None,
+        residuals_unstructured(harmonics, shared, result.rmse) if around else None,
         uncertainty_by_run(result.by_run, len(systems.runs), bool(systems.references)),
         drawn,
-        outliers([run.weights for run in systems.runs if run.weights is not None]) if result.test.question.robust else None,
+        free_of_outliers([run.weights for run in systems.runs if run.weights is not None]) if robust else None,
         above_resolution({p.name: abs(p.peak_to_peak) for p in parameters}, result.test.resolution),
         geometry_constant(result.local_change, geometric) if result.local_change and geometric else None,
         model_adequate(result.models) if result.models else None,
@@ -185,7 +188,7 @@ def _held_against_draws(
         drawn = agreement(systems, result.solution, known, result.budget)
     except UnsupportedError as error:
         return result, Check("first order enough", None, {"why": str(error)})
-    return replace(result, agreement=drawn), first_order_enough(drawn, result.solution.labels)
+    return replace(result, agreement=drawn), first_order_enough(drawn, result.parameters)
 
 
 def _held_against_physics(result: Identification) -> tuple[Identification, Check]:
@@ -417,11 +420,14 @@ def _dispersion(systems: Systems, retained: Sequence[str]) -> tuple[float, float
 
 def _local_change(systems: Systems, retained: Sequence[str]) -> Change | None:
     """Whether local estimates differ; None where that cannot be said."""
-    choices = [[k for k, run in enumerate(systems.runs) if run in systems.at(*pair)] for pair in adjacent(systems.levels)]
+    pairs = adjacent(systems.levels)
+    choices = [[k for k, run in enumerate(systems.runs) if run in systems.at(*pair)] for pair in pairs]
+    # Where two levels meet a parabola, the straight line through them cuts the axis in proportion to their product.
+    products = [low * high for low, high in pairs]
     if systems.references or len(choices) < 2:
         return None
     try:
-        return local_change([run.factor for run in systems.runs], retained, choices)
+        return local_change([run.factor for run in systems.runs], retained, choices, products)
     except (DegreesOfFreedomError, RankError):
         return None
 

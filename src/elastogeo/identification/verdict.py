@@ -7,14 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from elastogeo.estimate import Confounding
-from elastogeo.identification.budget import Agreement
+from elastogeo.estimate import HUBER, Confounding
+from elastogeo.identification.budget import COVERAGE, HELD, Agreement
 from elastogeo.identification.change import SIGNIFICANT, Change
 from elastogeo.identification.check import Check
 from elastogeo.identification.fit import Harmonic
 from elastogeo.identification.models import Comparison
 from elastogeo.identification.result import Parameter
 from elastogeo.machine import Array
+
+OUTLYING = 6.0
+"""Standard deviations (robust) from which a reading is an outlier: normal noise never gets there."""
 
 CONDITION_LIMIT = 30.0
 """Scaled condition number above which estimates are strongly coupled (Belsley, Kuh and Welsch, 1980)."""
@@ -57,17 +60,28 @@ def geometry_constant(change: Change, geometric: Sequence[str]) -> Check:
     return Check("geometry constant", not moved, {"moved": moved})
 
 
-def first_order_enough(agreement: Agreement, labels: Sequence[str]) -> Check:
-    """Whether the intervals to first order are those of the random draws (JCGM 101, 8)."""
-    apart = tuple(label for label, agrees in zip(labels, agreement.agrees, strict=True) if not agrees)
-    return Check("first order enough", not apart, {"apart": apart, "trials": agreement.draws.trials})
+def first_order_enough(agreement: Agreement, parameters: Sequence[Parameter]) -> Check:
+    """Whether the intervals to first order hold the share of random draws that they should (JCGM 101, 8)."""
+    apart = {
+        parameter.name: {
+            "held": float(agreement.held[k]),
+            "low": float(agreement.draws.interval[k, 0]),
+            "high": float(agreement.draws.interval[k, 1]),
+            "unit": parameter.unit,
+        }
+        for k, parameter in enumerate(parameters)
+        if not agreement.agrees[k]
+    }
+    facts = {"apart": apart, "trials": agreement.draws.trials, "coverage": COVERAGE, "within": HELD}
+    return Check("first order enough", not apart, facts)
 
 
-def outliers(weights: Sequence[Array]) -> Check:
-    """How many readings the robust estimate counts less."""
+def free_of_outliers(weights: Sequence[Array]) -> Check:
+    """Whether a reading lies further off than noise takes it, by the weights of a robust estimate."""
     every = np.concatenate(weights)
-    facts = {"fewer": int(np.sum(every < 1.0)), "readings": len(every), "least": float(every.min())}
-    return Check("outliers", True, facts)
+    far = int(np.sum(every < HUBER / OUTLYING))
+    facts = {"fewer": int(np.sum(every < 1.0)), "readings": len(every), "outlying": far, "limit": OUTLYING}
+    return Check("free of outliers", far == 0, facts)
 
 
 def model_adequate(models: Comparison) -> Check:
@@ -83,10 +97,17 @@ def model_adequate(models: Comparison) -> Check:
     return Check("model adequate", models.supported == constant.name, facts)
 
 
-def residuals_unstructured(harmonics: Mapping[str, Harmonic], rmse: float, by_run: bool) -> Check:
-    """Whether the residuals of every run are noise."""
+def residuals_unstructured(harmonics: Mapping[str, Harmonic], shared: Harmonic | None, rmse: float) -> Check:
+    """Whether the residuals are what the uncertainties take them for.
+
+    An uncertainty by run holds what differs from run to run, so that only what runs have in common (`shared`) counts;
+    without one, the readings are to be independent, and any structure of any run counts.
+    """
     left = {run: harmonic for run, harmonic in harmonics.items() if harmonic.significant}
-    facts: dict[str, Any] = {"rmse": rmse, "by_run": by_run, "runs": len(harmonics), "structured": len(left)}
+    facts: dict[str, Any] = {"rmse": rmse, "shared": None, "runs": len(harmonics), "structured": len(left)}
+    if shared is not None:
+        facts |= {"shared": shared.significant, "order": shared.order, "amplitude": shared.amplitude}
+        return Check("residuals without structure", not shared.significant, facts)
     if left:
         run, worst = max(left.items(), key=lambda item: item[1].amplitude)
         facts |= {"run": run, "order": worst.order, "amplitude": worst.amplitude}

@@ -162,8 +162,7 @@ def structure_words(result: Identification) -> list[str]:
         return []
     if result.by_run:
         return [
-            "The residuals have structure (see the verdict). U covers what of it differs from run to run; what is the same "
-            "in all runs shifts the values and is not in U."
+            "The residuals have a structure that the runs share (see the verdict): it shifts the values and is not in U."
         ]
     return ["The true uncertainty is larger than U: the residuals have structure (see the verdict), which U does not cover."]
 

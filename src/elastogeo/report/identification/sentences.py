@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from elastogeo.report.numbers import display_unit, significant
 from elastogeo.report.sentences import Facts, says
 from elastogeo.report.text import UM
 
@@ -86,26 +87,39 @@ def geometry_constant(facts: Facts, passed: bool | None) -> str:
 
 @says("first order enough")
 def first_order_enough(facts: Facts, passed: bool | None) -> str:
-    """Whether the linear propagation agrees with the Monte Carlo trials."""
+    """Whether the intervals to first order hold as many Monte Carlo trials as they should; else the intervals to use."""
     if passed is None:
         return f"Not judged: {facts['why']}."
     trials = f"{facts['trials']} Monte Carlo trials"
     if passed:
-        return f"The intervals agree with {trials} within their numerical tolerance."
+        return f"The intervals hold {facts['coverage']:.0%} of {trials}, to within {facts['within']:.0%}."
+    held = "; ".join(f"{name} {drawn['held']:.1%}" for name, drawn in facts["apart"].items())
+    instead = "; ".join(f"{name} {drawn_interval(drawn)}" for name, drawn in facts["apart"].items())
     return (
-        f"For {', '.join(facts['apart'])} the interval to first order differs from that of {trials} by more than one "
-        f"significant digit of the uncertainty: a distribution that is not normal decides there. Use the Monte Carlo "
-        f"interval."
+        f"The interval to first order should hold {facts['coverage']:.0%} of {trials}, and holds: {held}. A distribution "
+        f"that is not normal, or a model that is not linear, decides. Use the interval of the trials instead: {instead}."
     )
 
 
-@says("outliers")
-def outliers(facts: Facts, passed: bool | None) -> str:  # noqa: ARG001
-    """How many readings count less."""
+def drawn_interval(drawn: Facts) -> str:
+    """An interval [unit of the house] as `61.2 to 62.6 nm/N`."""
+    shown = display_unit(drawn["unit"], max(abs(drawn["low"]), abs(drawn["high"])))
+    return f"{significant(drawn['low'] * shown.factor, 4)} to {significant(drawn['high'] * shown.factor, 4)} {shown.name}"
+
+
+@says("free of outliers")
+def free_of_outliers(facts: Facts, passed: bool | None) -> str:
+    """How many readings count less, and how many are outliers."""
+    price = (
+        f"{facts['fewer']} of {facts['readings']} readings count less than one (normal noise alone would make it 18 %); "
+        f"where nothing is wrong, the robust estimate costs 2.6 % greater standard uncertainties"
+    )
+    if passed:
+        return f"No reading is further off than {facts['limit']:g} standard deviations. {price}."
+    one = facts["outlying"] == 1
     return (
-        f"Robust estimate: {facts['fewer']} of {facts['readings']} readings count less than one (normal noise alone would "
-        f"make it 18 %), the least {facts['least']:.2g}. Its price where nothing is wrong is 2.6 % greater standard "
-        f"uncertainties."
+        f"{facts['outlying']} {'reading is' if one else 'readings are'} further off than {facts['limit']:g} standard "
+        f"deviations: look for the cause. {price}."
     )
 
 
@@ -123,14 +137,25 @@ def model_adequate(facts: Facts, passed: bool | None) -> str:
 
 @says("residuals without structure")
 def residuals_unstructured(facts: Facts, passed: bool | None) -> str:
-    """Which harmonic the model leaves over."""
+    """Which harmonic the model leaves over: in all runs, or, where readings are to be independent, in one."""
     rmse = f"RMSE {facts['rmse'] * UM:.3g} µm"
-    if passed:
+    own, runs = facts["structured"], facts["runs"]
+    if passed and not own:
         return f"The residuals look like noise; {rmse}."
+    if passed:
+        return (
+            f"The runs share no structure; {rmse}. {own} of {runs} {'has' if own == 1 else 'have'} a structure of "
+            f"{'its' if own == 1 else 'their'} own, which the uncertainty by run covers."
+        )
+    harmonic = f"A harmonic of order {facts['order']}, amplitude {facts['amplitude'] * UM:.3g} µm,"
+    if facts["shared"]:
+        return (
+            f"{harmonic} is left that the {runs} runs share or that grows with the force ({rmse}): the model does not "
+            f"explain it, and the stated uncertainties do not cover it."
+        )
     return (
-        f"A harmonic of order {facts['order']} with an amplitude of {facts['amplitude'] * UM:.3g} µm is left in run "
-        f"{facts['run']} ({facts['structured']} of {facts['runs']} runs have one; {rmse}): the model does not explain it. "
-        f"{'Any part common to all runs' if facts['by_run'] else 'It'} is not covered by the stated uncertainties."
+        f"{harmonic} is left in run {facts['run']} ({own} of {runs} runs have one; {rmse}): the model does not explain it, "
+        f"and the stated uncertainties, which assume independent readings, do not cover it."
     )
 
 
