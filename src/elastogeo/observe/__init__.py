@@ -2,15 +2,18 @@
 
 from elastogeo.observe.about import About
 from elastogeo.observe.bars.ball_bar import LoadedBallBar
+from elastogeo.observe.bars.unloaded import BallBar
 from elastogeo.observe.circle import PLANES, Circle, plane_directions
 from elastogeo.observe.contradictions import check_runs, turning
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, ForceInfluence, force_from_pressure
 from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
-from elastogeo.observe.measurement import KnownInfluence, MachineTest, Question, Run, Setup
+from elastogeo.observe.measurement import KnownInfluence, MachineTest, Question
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
 from elastogeo.observe.rollers.ball_roller import BallRoller, Pressed
 from elastogeo.observe.rollers.rig import Rig
+from elastogeo.observe.run import Run
+from elastogeo.observe.setup import Respond, Setup, SetupFact
 from elastogeo.observe.static_loads.probes import DisplacementProbes
 from elastogeo.observe.static_loads.sensor_frame import Sensor, SensorFrame, sensitivities
 from elastogeo.observe.static_loads.sensor_twist import SensorTwist, check_sees_twist, sensor_twist
@@ -20,6 +23,7 @@ __all__ = [
     "PLANES",
     "THESIS_CALIBRATION",
     "About",
+    "BallBar",
     "BallRoller",
     "Calibration",
     "Circle",
@@ -34,12 +38,14 @@ __all__ = [
     "Pressed",
     "Question",
     "Residue",
+    "Respond",
     "Rig",
     "Run",
     "Sensor",
     "SensorFrame",
     "SensorTwist",
     "Setup",
+    "SetupFact",
     "StaticForce",
     "check_observations",
     "check_runs",

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Angle, Array, AxisCommands, Length, Motion
+from elastogeo.machine import MM_OR_RAD, Angle, Array, AxisCommands, Length, Motion
+from elastogeo.observe.setup import SetupFact
 
 Direction = tuple[float, float, float]
 
@@ -79,6 +80,17 @@ def circle_parameters(circle: Circle, loaded: bool) -> tuple[str, ...]:
     turning = "".join(circle.rotary_turn)
     geometry = ("E_[XYZ][XYZ][12]", "E_[ABC](0*)[XYZ]", *(f"E_[XYZ](*){axis}" for axis in turning))
     return (f"C_[XYZABC][XYZABC][XYZ{turning}]", *geometry) if loaded else geometry
+
+
+def circle_facts(circle: Circle, feed: float) -> tuple[SetupFact, ...]:
+    """What a reader wants to know of a circle: plane, radius, centre, feed [mm/s], and what turns along."""
+    return (
+        SetupFact("plane", circle.plane),
+        SetupFact("radius", circle.radius, "mm"),
+        SetupFact("centre", circle.centre, MM_OR_RAD),
+        SetupFact("feed", feed, "mm_s"),
+        *([SetupFact("rotary turn", circle.rotary_turn)] if circle.rotary_turn else []),
+    )
 
 
 def plane_directions(plane: str | tuple[Direction, Direction]) -> tuple[Array, Array]:

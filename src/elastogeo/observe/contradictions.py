@@ -11,7 +11,7 @@ import numpy as np
 
 from elastogeo.errors import InputError
 from elastogeo.machine import Array
-from elastogeo.observe.measurement import Run
+from elastogeo.observe.run import Run
 
 TURNED = 0.9
 """Share of the way that must go in one direction for the angles to show it."""

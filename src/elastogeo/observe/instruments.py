@@ -20,7 +20,7 @@ from typing import TypeVar
 
 from elastogeo.discovery import import_all
 from elastogeo.errors import InputError
-from elastogeo.observe.measurement import Setup
+from elastogeo.observe.setup import Setup
 
 _REGISTER: dict[str, type[Setup]] = {}
 S = TypeVar("S", bound=type)
@@ -40,6 +40,11 @@ def instruments() -> dict[str, type[Setup]]:
     """All instruments by name; every file of this room and its wings is looked at."""
     import_all(__name__.rpartition(".")[0])
     return dict(sorted(_REGISTER.items()))
+
+
+def instrument_of(setup: Setup) -> str:
+    """The name of a set-up's instrument; that of its class, if it is not registered."""
+    return next((name for name, known in instruments().items() if known is type(setup)), type(setup).__name__)
 
 
 def instrument_named(name: str) -> type[Setup]:

@@ -2,103 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import inf
-from typing import Protocol
-
-import numpy as np
 
 from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, Force, Forces, Length, Machine, Pressure
+from elastogeo.machine import Force, Forces, Length, Machine
 from elastogeo.observe.about import About
-from elastogeo.observe.imperfection import Imperfection
+from elastogeo.observe.instruments import instrument_of
 from elastogeo.observe.observations import Observations
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Run(ByValue):
-    """One run: what was recorded, and what was the same for every reading.
-
-    Attributes
-    ----------
-    name : str
-    columns : mapping of str to array, shape (m,)
-        What the instrument recorded, by quantity, in the units of the house: `angle` [rad], `radial` [mm].
-    force : float or None [N]
-        Force level, if it was given as such.
-    pressure : float or None [bar]
-        Pressure level, if the force follows from it.
-    engagement : float or None [mm]
-        Commanded engagement of a roller in a ball; zero or none where it only circles around it.
-    sense : int
-        +1 counter-clockwise, -1 clockwise.
-    repeat : int
-        Counts the runs of one level, from 1.
-    notes : tuple of str
-        What was done to its recording before it became columns: sentences for the reader of the result.
-    file : str
-        The file it was read from, as the test names it; empty if it was read from none.
-    sha256 : str
-        Of that file's bytes, in hexadecimal digits.
-    simulated : str
-        What the file says of the simulation that made it; empty if it was measured.
-    """
-
-    name: str
-    columns: Mapping[str, Array]
-    force: Force | None = None
-    pressure: Pressure | None = None
-    engagement: Length | None = None
-    sense: int = 1
-    repeat: int = 1
-    notes: tuple[str, ...] = ()
-    file: str = ""
-    sha256: str = ""
-    simulated: str = ""
-
-    def __repr__(self) -> str:
-        readings = max((len(column) for column in self.columns.values()), default=0)
-        return f"<Run {self.name!r}: {readings} readings of {', '.join(self.columns)}>"
-
-
-Respond = Callable[[Observations], Array]
-"""The true readings of observations, shape (m,), on a machine whose parameters are known: to simulate with."""
-
-
-class Setup(Protocol):
-    """How an instrument was set up: the contract of an instrument.
-
-    An instrument is one file of this room: a frozen dataclass of its settings (in the units of the house) with the members
-    below, registered by `instrument`. The fields are what a test file may set, under their names with a unit.
-    """
-
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        """Columns that a run file must have."""
-
-    @property
-    def pose_quantity(self) -> str:
-        """What the readings count along: `angle` if they go around a circle."""
-
-    @property
-    def own_to_run(self) -> tuple[str, ...]:
-        """Parameters of the set-up, as patterns, that every run has for itself (where its circle really lies), if any."""
-
-    def default_parameters(self, runs: Sequence[Run]) -> tuple[str, ...]:
-        """Names, patterns or presets to ask for where nobody asks."""
-
-    def observe(self, machine: Machine, run: Run) -> Observations:
-        """The observations that a run amounts to."""
-
-    def observe_all(self, machine: Machine, runs: Sequence[Run]) -> tuple[Observations, ...]:
-        """The observations of all runs of a test, where one may tell something of another; else one `observe` each."""
-
-    def simulated(
-        self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
-    ) -> Run:
-        """The run as the instrument would record it at its poses, with its imperfections."""
+from elastogeo.observe.run import Run
+from elastogeo.observe.setup import Setup
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,6 +122,11 @@ class MachineTest(ByValue):
     def asked(self) -> tuple[str, ...]:
         """Names, patterns or presets of the parameters that are asked for: the question's, else the instrument's own."""
         return self.question.parameters or self.setup.default_parameters(self.runs)
+
+    @property
+    def instrument(self) -> str:
+        """The name under which test files know the instrument."""
+        return instrument_of(self.setup)
 
     def observations(self) -> tuple[Observations, ...]:
         """The observations of every run that holds readings, in order."""

@@ -125,8 +125,8 @@ def _internal(kind: Any, table: Any, path: str, problems: list[str]) -> dict[str
     if not isinstance(table, Mapping):
         problems.append(f"{path.rstrip('.') or 'the document'} must be a table, got {table!r:.60}")
         return {}
-    hints = get_type_hints(kind)
-    units = {name: _unit_of(hint) for name, hint in get_type_hints(kind, include_extras=True).items()}
+    hints, marked = get_type_hints(kind), get_type_hints(kind, include_extras=True)
+    units = {field.name: _unit_of(marked[field.name]) for field in fields(kind)}
     values: dict[str, Any] = {}
     for key, value in table.items():
         name, unit = _field_of(key, units)

@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import inf
+from typing import ClassVar
 
 import numpy as np
 
 from elastogeo.errors import InputError
 from elastogeo.machine import Array, Feed, LengthPerPressure, Machine, Point, follow
-from elastogeo.observe.circle import Circle, circle_parameters
+from elastogeo.observe.circle import Circle, circle_facts, circle_parameters
 from elastogeo.observe.force import Calibration, force_influences, force_of_run
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
-from elastogeo.observe.measurement import Respond, Run
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
+from elastogeo.observe.run import Run
+from elastogeo.observe.setup import Respond, Setup, SetupFact
 
 MOST_TURNS = 10.0
 """Turns that a run may have."""
@@ -26,7 +28,7 @@ MOST_DEVIATION = 0.1
 
 @instrument("loaded-ball-bar")
 @dataclass(frozen=True, slots=True)
-class LoadedBallBar:
+class LoadedBallBar(Setup):
     """Set-up of a loaded ball bar.
 
     Attributes
@@ -58,6 +60,9 @@ class LoadedBallBar:
     setup_deflection_degrees_of_freedom: float = inf
     pulls: bool = False
 
+    extra: ClassVar = "circularity"
+    limits: ClassVar = ("bar length", "bar calibration", "force calibration", "form of the balls")
+
     @property
     def quantities(self) -> tuple[str, ...]:
         """Columns that a run file must have."""
@@ -76,6 +81,16 @@ class LoadedBallBar:
     def default_parameters(self, runs: Sequence[Run]) -> tuple[str, ...]:
         """Compliance, geometry and location of a loaded bar; the faults that a bar without load shows."""
         return circle_parameters(self.circle, any(run.force or run.pressure for run in runs))
+
+    @property
+    def nominal_radius(self) -> float:
+        """That of the circle."""
+        return self.circle.radius
+
+    def facts(self) -> tuple[SetupFact, ...]:
+        """Circle and feed, and the correction of the set-up's deflection if it is on."""
+        post = [SetupFact("set-up deflection", self.setup_deflection, "mm_per_bar")] if self.setup_deflection else []
+        return (*circle_facts(self.circle, self.feed), *post)
 
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations that a run amounts to.
@@ -116,10 +131,6 @@ class LoadedBallBar:
         check_observations(observations)
         _check_units(run, self.circle.radius)
         return observations
-
-    def observe_all(self, machine: Machine, runs: Sequence[Run]) -> tuple[Observations, ...]:
-        """The observations of every run, each by itself."""
-        return tuple(self.observe(machine, run) for run in runs)
 
     def simulated(
         self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator

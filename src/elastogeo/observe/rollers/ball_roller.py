@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -38,14 +39,15 @@ from elastogeo.machine import (
     follow,
     workpiece_ball,
 )
-from elastogeo.observe.circle import Circle, circle_parameters
+from elastogeo.observe.circle import Circle, circle_facts, circle_parameters
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
-from elastogeo.observe.measurement import Respond, Run
 from elastogeo.observe.observations import Observations, check_observations
 from elastogeo.observe.rollers.force import ContactForce, contact_force, drives_against, observed_influences
 from elastogeo.observe.rollers.rig import Rig
 from elastogeo.observe.rollers.track import Track, moving, track_of
+from elastogeo.observe.run import Run
+from elastogeo.observe.setup import Respond, Setup, SetupFact
 
 MEASURED_FORCE = 0.02
 """Columns that differ by a smaller share than this differ by the noise of the force, which is measured."""
@@ -82,7 +84,7 @@ class Pressed:
 
 @instrument("ball-roller")
 @dataclass(frozen=True, slots=True)
-class BallRoller:
+class BallRoller(Setup):
     """Set-up of a ball-roller test.
 
     Attributes
@@ -126,6 +128,9 @@ class BallRoller:
     harmonics: int = 12
     tool: Point | None = None
 
+    extra: ClassVar = "stiffness-map"
+    limits: ClassVar = ("touching radius", "motor constants", "set-up compliance", "slow motion")
+
     def __post_init__(self) -> None:
         """Refuse a set-up without drives, or with two of one axis."""
         axes = [drive.axis for drive in self.drives]
@@ -151,6 +156,20 @@ class BallRoller:
     def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
         """Compliance, geometry and location."""
         return circle_parameters(self.circle, loaded=True)
+
+    @property
+    def nominal_radius(self) -> float:
+        """Distance of the centres at which ball and roller just touch."""
+        return self.circle.radius
+
+    def facts(self) -> tuple[SetupFact, ...]:
+        """Circle and feed, the axes that press, the parts in the loop."""
+        rigs = [SetupFact("rig", len(self.rig))] if self.rig else []
+        return (
+            *circle_facts(self.circle, self.feed),
+            SetupFact("axes that press", " ".join(drive.axis for drive in self.drives)),
+            *rigs,
+        )
 
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations of one run, with balances that are known.

@@ -11,7 +11,7 @@ from elastogeo.drive import DriveRecord, FeedDrive, differentiate, effort_from_c
 from elastogeo.errors import InputError
 from elastogeo.machine import Array, LoopFrames, Machine, loop_frames, workpiece_ball
 from elastogeo.observe.circle import Circle, plane_directions
-from elastogeo.observe.measurement import Run
+from elastogeo.observe.run import Run
 
 MOST_ENGAGEMENT = 0.05
 """Share of the radius that an engagement may be: beyond it a unit or a centre is wrong."""

@@ -15,7 +15,7 @@ from elastogeo.errors import InputError
 from elastogeo.machine import Array, Machine
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.imperfection import Imperfection
-from elastogeo.observe.measurement import Run
+from elastogeo.observe.run import Run
 
 COMPONENTS = ("force_x", "force_y", "force_z")
 """Columns [N] of a force that is recorded by components, along the axes of the frame in which directions are given."""

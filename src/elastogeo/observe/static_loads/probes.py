@@ -8,17 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import ClassVar
 
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, AxisCommands, Machine, Motion, Point, follow, loop_frames
+from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Motion, Point, follow, loop_frames
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.force import Calibration, force_influences, force_of_run
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
-from elastogeo.observe.measurement import Respond, Run
 from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.run import Run
+from elastogeo.observe.setup import Respond, Setup, SetupFact
 from elastogeo.observe.static_loads.load import (
     COMPONENTS,
     check_displacements,
@@ -38,7 +40,7 @@ MOST_TURNS = 10.0
 
 @instrument("displacement-probes")
 @dataclass(frozen=True, slots=True)
-class DisplacementProbes:
+class DisplacementProbes(Setup):
     """Set-up of a loaded bar and displacement probes.
 
     A run has a column `angle` and one column per probe, `displacement_1`, `displacement_2`, ...; each of its rows is one
@@ -75,6 +77,9 @@ class DisplacementProbes:
     tool: Point | None = None
     calibration: Calibration | None = None
 
+    extra: ClassVar = "cartesian-stiffness"
+    limits: ClassVar = ("force", "sensor")
+
     def __post_init__(self) -> None:
         """Refuse directions that are none."""
         unit_vectors(self.probes, "probe")
@@ -96,15 +101,16 @@ class DisplacementProbes:
         """The angle by which the rotary axes turn: not that of a circle, as every probe has its own trace over it."""
         return "turn"
 
-    @property
-    def own_to_run(self) -> tuple[str, ...]:
-        """Nothing: the probes' zeros are parameters of the test."""
-        return ()
-
     def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
         """The compliances in translation, and the probes' zeros."""
         place = "w" if self.probes_in_workpiece else "t"
         return ("C_[XYZ][XYZ]?", *(f"E_{axis}{place}0" for axis in "XYZ"))
+
+    def facts(self) -> tuple[SetupFact, ...]:
+        """Directions of probes and bar, the centre, what turns."""
+        bar = [] if self.bar is None else [SetupFact("direction of the force", (self.bar,))]
+        turn = [SetupFact("rotary turn", self.rotary_turn)] if self.rotary_turn else []
+        return (SetupFact("probes", self.probes), *bar, SetupFact("centre", self.centre, MM_OR_RAD), *turn)
 
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations that a run amounts to: every probe's readings, one probe after the other.
@@ -149,10 +155,6 @@ class DisplacementProbes:
         check_observations(observations)
         check_displacements(run, self.readings)
         return observations
-
-    def observe_all(self, machine: Machine, runs: Sequence[Run]) -> tuple[Observations, ...]:
-        """The observations of every run, each by itself."""
-        return tuple(self.observe(machine, run) for run in runs)
 
     def simulated(
         self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator

@@ -10,16 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import ClassVar
 
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
+from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
-from elastogeo.observe.measurement import Respond, Run
 from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.run import Run
+from elastogeo.observe.setup import Respond, Setup, SetupFact
 from elastogeo.observe.static_loads.load import (
     check_displacements,
     commands_row,
@@ -51,6 +53,9 @@ class Sensor:
     point: Point
     direction: Direction
 
+    extra: ClassVar = "twist"
+    limits: ClassVar = ("force", "sensor")
+
     def __post_init__(self) -> None:
         """Refuse a sensor without place or direction."""
         if not np.isfinite(self.point).all():
@@ -74,7 +79,7 @@ def sensitivities(sensors: Sequence[Sensor]) -> Array:
 
 @instrument("sensor-frame")
 @dataclass(frozen=True, slots=True)
-class SensorFrame:
+class SensorFrame(Setup):
     """Set-up of a frame of displacement sensors.
 
     A run stands still and has one column per sensor, `displacement_1`, `displacement_2`, ..., zeroed without load; runs at
@@ -130,14 +135,14 @@ class SensorFrame:
         """The size of the force."""
         return "force"
 
-    @property
-    def own_to_run(self) -> tuple[str, ...]:
-        """Nothing: the sensors are zeroed without load."""
-        return ()
-
     def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
         """The compliances: which sums of them one place and one direction of the force show, the answer says."""
         return ("compliance",)
+
+    def facts(self) -> tuple[SetupFact, ...]:
+        """How many sensors, the direction of the force, where the machine stands."""
+        along = [] if self.direction is None else [SetupFact("direction of the force", (self.direction,))]
+        return (SetupFact("sensors", len(self.sensors)), *along, SetupFact("pose", self.pose, MM_OR_RAD))
 
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations that a run amounts to: every sensor's readings, one sensor after the other.
@@ -180,10 +185,6 @@ class SensorFrame:
         check_observations(observations)
         check_displacements(run, self.readings)
         return observations
-
-    def observe_all(self, machine: Machine, runs: Sequence[Run]) -> tuple[Observations, ...]:
-        """The observations of every run, each by itself."""
-        return tuple(self.observe(machine, run) for run in runs)
 
     def simulated(
         self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator

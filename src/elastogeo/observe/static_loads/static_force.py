@@ -9,15 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import ClassVar
 
 import numpy as np
 
-from elastogeo.machine import Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
+from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
-from elastogeo.observe.measurement import Respond, Run
 from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.run import Run
+from elastogeo.observe.setup import Respond, Setup, SetupFact
 from elastogeo.observe.static_loads.load import (
     axes_along,
     check_displacements,
@@ -36,7 +38,7 @@ from elastogeo.observe.static_loads.load import (
 
 @instrument("static-force")
 @dataclass(frozen=True, slots=True)
-class StaticForce:
+class StaticForce(Setup):
     """Set-up of a static force with one displacement sensor.
 
     A run stands still; runs at several places name them by columns of axis positions (`x_mm`, `c_deg`). The sensor's zero is
@@ -70,6 +72,9 @@ class StaticForce:
     tool: Point | None = None
     ramp: bool = True
 
+    extra: ClassVar = "loading-cycles"
+    limits: ClassVar = ("force", "sensor")
+
     def __post_init__(self) -> None:
         """Refuse directions that are none."""
         self.sensitive_direction()
@@ -85,11 +90,6 @@ class StaticForce:
     def pose_quantity(self) -> str:
         """The size of the force."""
         return "force"
-
-    @property
-    def own_to_run(self) -> tuple[str, ...]:
-        """Nothing: the sensor's zero is a parameter of the test."""
-        return ()
 
     def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
         """The compliances in translation that force and sensor show, and the sensor's zero."""
@@ -107,6 +107,12 @@ class StaticForce:
         """
         given = self.sensor if self.sensor is not None else self.direction
         return unit_vector((0.0, 0.0, 0.0) if given is None else given, "the direction of the sensor")
+
+    def facts(self) -> tuple[SetupFact, ...]:
+        """Directions of force and sensor, and where the machine stands."""
+        along = [] if self.direction is None else [SetupFact("direction of the force", (self.direction,))]
+        sensor = [] if self.sensor is None else [SetupFact("direction of the sensor", (self.sensor,))]
+        return (*along, *sensor, SetupFact("pose", self.pose, MM_OR_RAD))
 
     def observe(self, machine: Machine, run: Run) -> Observations:
         """The observations that a run amounts to: the sensor reads along its direction, the wrench is that of the force.
@@ -145,10 +151,6 @@ class StaticForce:
         check_observations(observations)
         check_displacements(run, ["displacement"])
         return observations
-
-    def observe_all(self, machine: Machine, runs: Sequence[Run]) -> tuple[Observations, ...]:
-        """The observations of every run, each by itself."""
-        return tuple(self.observe(machine, run) for run in runs)
 
     def simulated(
         self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator

@@ -1,0 +1,87 @@
+"""The ball bar as most workshops have it: it reads the change of the distance of two balls, and pushes nothing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from elastogeo.errors import InputError
+from elastogeo.machine import Feed, Machine, Point
+from elastogeo.observe.bars.ball_bar import LoadedBallBar
+from elastogeo.observe.circle import Circle, circle_facts
+from elastogeo.observe.imperfection import Imperfection
+from elastogeo.observe.instruments import instrument
+from elastogeo.observe.observations import Observations
+from elastogeo.observe.run import Run
+from elastogeo.observe.setup import Respond, Setup, SetupFact
+
+
+@instrument("ball-bar")
+@dataclass(frozen=True, slots=True)
+class BallBar(Setup):
+    """Set-up of an ordinary ball bar: its runs have no force.
+
+    Attributes
+    ----------
+    circle : Circle
+        Path and centre.
+    feed : float [mm/s]
+        Speed of the tool ball along the circle.
+    tool : tuple of 3 float or None [mm]
+        Tool ball in the frame of the last tool-branch carriage; None for the machine's own tool point.
+    """
+
+    circle: Circle
+    feed: Feed
+    tool: Point | None = None
+
+    loads: ClassVar = False
+    extra: ClassVar = "circularity"
+    limits: ClassVar = ("bar length", "bar calibration", "form of the balls")
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Columns that a run file must have."""
+        return ("angle", "radial")
+
+    @property
+    def pose_quantity(self) -> str:
+        """The angle in the plane of the circle."""
+        return "angle"
+
+    @property
+    def nominal_radius(self) -> float:
+        """That of the circle."""
+        return self.circle.radius
+
+    def facts(self) -> tuple[SetupFact, ...]:
+        """Circle and feed."""
+        return circle_facts(self.circle, self.feed)
+
+    def observe(self, machine: Machine, run: Run) -> Observations:
+        """The observations that a run amounts to: those of a loaded bar without its load.
+
+        Raises
+        ------
+        InputError
+            If the run states a force or a pressure, lacks a column or readings, or has a value that is no finite number.
+        """
+        if run.force or run.pressure:
+            stated = f"{run.force:g} N" if run.force else f"{run.pressure:g} bar"
+            raise InputError(
+                f'run {run.name!r} states {stated}, and a ball-bar pushes nothing; write instrument = "loaded-ball-bar" if '
+                f"this bar is loaded, or remove the force"
+            )
+        return self._loaded().observe(machine, replace(run, force=0.0, pressure=None))
+
+    def simulated(
+        self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
+    ) -> Run:
+        """The run with the readings that the bar would give at its angles."""
+        seen = self._loaded().simulated(machine, replace(run, force=0.0, pressure=None), respond, imperfection, random)
+        return replace(run, columns=seen.columns)
+
+    def _loaded(self) -> LoadedBallBar:
+        return LoadedBallBar(self.circle, self.feed, self.tool)

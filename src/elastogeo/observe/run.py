@@ -1,0 +1,55 @@
+"""One run of a test: what was recorded, and what was the same for every reading."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from elastogeo.equality import ByValue
+from elastogeo.machine import Array, Force, Length, Pressure
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Run(ByValue):
+    """One run: what was recorded, and what was the same for every reading.
+
+    Attributes
+    ----------
+    name : str
+    columns : mapping of str to array, shape (m,)
+        What the instrument recorded, by quantity, in the units of the house: `angle` [rad], `radial` [mm].
+    force : float or None [N]
+        Force level, if it was given as such.
+    pressure : float or None [bar]
+        Pressure level, if the force follows from it.
+    engagement : float or None [mm]
+        Commanded engagement of a roller in a ball; zero or none where it only circles around it.
+    sense : int
+        +1 counter-clockwise, -1 clockwise.
+    repeat : int
+        Counts the runs of one level, from 1.
+    notes : tuple of str
+        What was done to its recording before it became columns: sentences for the reader of the result.
+    file : str
+        The file it was read from, as the test names it; empty if it was read from none.
+    sha256 : str
+        Of that file's bytes, in hexadecimal digits.
+    simulated : str
+        What the file says of the simulation that made it; empty if it was measured.
+    """
+
+    name: str
+    columns: Mapping[str, Array]
+    force: Force | None = None
+    pressure: Pressure | None = None
+    engagement: Length | None = None
+    sense: int = 1
+    repeat: int = 1
+    notes: tuple[str, ...] = ()
+    file: str = ""
+    sha256: str = ""
+    simulated: str = ""
+
+    def __repr__(self) -> str:
+        readings = max((len(column) for column in self.columns.values()), default=0)
+        return f"<Run {self.name!r}: {readings} readings of {', '.join(self.columns)}>"

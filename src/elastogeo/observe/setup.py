@@ -1,0 +1,106 @@
+"""The contract of an instrument: how it was set up, what it records, and what its readings amount to."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from elastogeo.machine import Array, Machine
+from elastogeo.observe.imperfection import Imperfection
+from elastogeo.observe.observations import Observations
+from elastogeo.observe.run import Run
+
+Respond = Callable[[Observations], Array]
+"""The true readings of observations, shape (m,), on a machine whose parameters are known: to simulate with."""
+
+FactValue = float | str | Mapping[str, float] | tuple[tuple[float, float, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SetupFact:
+    """One thing to know of a set-up, for the head of a report.
+
+    Attributes
+    ----------
+    name : str
+        A constant: `plane`, `radius`, `centre`, `feed`, ...
+    value : float, str, mapping of str to float, or tuple of 3-vector
+        In the units of the house.
+    unit : str
+        `mm`, `mm_s`, `N`; `mm|rad` for commands by axis; empty for what has none.
+    """
+
+    name: str
+    value: FactValue
+    unit: str = ""
+
+
+class Setup(ABC):
+    """How an instrument was set up: the contract of an instrument.
+
+    An instrument is one file of this room: a frozen dataclass of its settings (in the units of the house) with the members
+    below, registered by `instrument`. The fields are what a test file may set, under their names with a unit. What is not
+    abstract has an answer that suits most instruments.
+
+    Attributes
+    ----------
+    loads : bool
+        Whether the instrument loads the machine.
+    extra : str
+        Which result it has besides parameters: `circularity`, `stiffness-map`, `loading-cycles`, `cartesian-stiffness`,
+        `twist`; empty for none.
+    limits : tuple of str
+        What its results rest on and cannot show themselves, as constants for which `report` has the sentences.
+    """
+
+    __slots__ = ()
+
+    loads: ClassVar[bool] = True
+    extra: ClassVar[str] = ""
+    limits: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    @abstractmethod
+    def quantities(self) -> tuple[str, ...]:
+        """Columns that a run file must have."""
+
+    @property
+    @abstractmethod
+    def pose_quantity(self) -> str:
+        """What the readings count along: `angle` if they go around a circle."""
+
+    @abstractmethod
+    def observe(self, machine: Machine, run: Run) -> Observations:
+        """The observations that a run amounts to."""
+
+    @abstractmethod
+    def simulated(
+        self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
+    ) -> Run:
+        """The run as the instrument would record it at its poses, with its imperfections."""
+
+    def observe_all(self, machine: Machine, runs: Sequence[Run]) -> tuple[Observations, ...]:
+        """The observations of all runs of a test, where one may tell something of another; by default one `observe` each."""
+        return tuple(self.observe(machine, run) for run in runs)
+
+    @property
+    def nominal_radius(self) -> float | None:
+        """Radius [mm] of the circle that the test was to make; None if it was to make none."""
+        return None
+
+    @property
+    def own_to_run(self) -> tuple[str, ...]:
+        """Parameters of the set-up, as patterns, that every run has for itself (where its circle really lies), if any."""
+        return ()
+
+    def default_parameters(self, runs: Sequence[Run]) -> tuple[str, ...]:  # noqa: ARG002
+        """Names, patterns or presets to ask for where nobody asks."""
+        return ("compliance",)
+
+    def facts(self) -> tuple[SetupFact, ...]:
+        """What a reader of the result wants to know of the set-up."""
+        return ()
