@@ -114,3 +114,11 @@ def test_the_array_type_is_defined_once() -> None:
     spelled = re.compile(r"NDArray\[np\.float64\]")
     defined = [path.relative_to(ROOT) for path in SOURCES if spelled.search(path.read_text(encoding="utf-8"))]
     assert defined == [Path("src/elastogeo/estimate/factor.py")]
+
+
+def test_no_room_above_observe_asks_which_instrument_it_was() -> None:
+    """An instrument says its own facts, limits and radius; whoever asks for its class knows a list of instruments."""
+    asks = re.compile(r"isinstance\([^)\n]*setup\b")
+    above = [path for path in SOURCES if "observe" not in path.parts]
+    assert above
+    assert [path.relative_to(ROOT) for path in above if asks.search(path.read_text(encoding="utf-8"))] == []

@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 
 from elastogeo.identification import Identification
 from elastogeo.machine import Array
-from elastogeo.observe import BallRoller, LoadedBallBar
 from elastogeo.report.style import FAINT, GREY, INK, SMALL, nice_step, thinned
 from elastogeo.report.text import UM
 
@@ -113,8 +112,7 @@ def is_angular(result: Identification) -> bool:
 
 def nominal_radius(result: Identification) -> float | None:
     """Radius [mm] of the circle that the test was to make, if it was to make one."""
-    setup = result.test.setup
-    return setup.circle.radius if isinstance(setup, LoadedBallBar | BallRoller) else None
+    return result.test.setup.nominal_radius
 
 
 def pose_axis(result: Identification) -> tuple[str, float]:

@@ -8,7 +8,6 @@ from typing import Any
 
 from elastogeo.estimate import Repeatability
 from elastogeo.identification import CONDITION_LIMIT, Check, Circularity, Comparison, Consistency, Diagnosis, Identification
-from elastogeo.observe import BallRoller, LoadedBallBar
 from elastogeo.report.as_json.envelope import instrument_name
 from elastogeo.report.budgets import budget_tables, degrees, uncertainty_table
 from elastogeo.report.findings import diagnosis_of, diagnosis_rows
@@ -94,9 +93,10 @@ def facts(result: Identification) -> list[tuple[str, str]]:
         ("Machine", f"{machine}{test.machine.topology.compact} {test.machine.topology.iso}"),
         ("Instrument", instrument_name(test).replace("-", " ")),
     ]
-    if isinstance(setup, LoadedBallBar | BallRoller):
-        plane = f"plane {setup.circle.plane}" if isinstance(setup.circle.plane, str) else "a tilted plane"
-        lines.append(("Path", f"circle, {plane}, radius {setup.circle.radius:g} mm, {setup.feed * _MINUTE:g} mm/min"))
+    known: dict[str, Any] = {fact.name: fact.value for fact in setup.facts()}
+    if "plane" in known:
+        plane = f"plane {known['plane']}" if isinstance(known["plane"], str) else "a tilted plane"
+        lines.append(("Path", f"circle, {plane}, radius {known['radius']:g} mm, {known['feed'] * _MINUTE:g} mm/min"))
     readings = sum(len(next(iter(run.columns.values()))) for run in test.runs)
     lines.append(("Runs", f"{len(test.runs)}, with {readings} readings"))
     forces = ", ".join(f"{level.force:g}" for level in result.levels)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from elastogeo.estimate import Confounding
 from elastogeo.identification import SCATTER, SIGNIFICANT, Comparison, Identification, Parameter
-from elastogeo.observe import BallRoller, LoadedBallBar, MachineTest
+from elastogeo.observe import MachineTest
 from elastogeo.report.numbers import micro, probability, significant
 from elastogeo.report.sentences import sentence_of
 from elastogeo.report.text import all_separated
@@ -140,15 +140,16 @@ def keep_in_mind(result: Identification) -> list[str]:
     if gains:
         verb, it = ("carries", "its sum") if len(gains) == 1 else ("carry", "their common part")
         length, source = "bar's length", "bar's calibration"
-        if isinstance(result.test.setup, BallRoller):
+        if "touching radius" in result.test.setup.limits:
             length, source = "radius at which ball and roller touch", "radii"
         words.append(f"{listed(gains)} {verb} the error of the {length}: {it} is as good as the {source}.")
-    if isinstance(result.test.setup, LoadedBallBar):
+    if "bar calibration" in result.test.setup.limits:
+        force = "the force (its gauge, its calibration) and " if result.test.setup.loads else ""
         words.append(
-            "Results are only as traceable as the force (its gauge, its calibration) and the bar calibration that were "
-            "entered; the form error of the balls, which can reach 30 µm, is taken for an error of the machine."
+            f"Results are only as traceable as {force}the bar calibration that was entered; the form error of the balls, "
+            f"which can reach 30 µm, is taken for an error of the machine."
         )
-    if isinstance(result.test.setup, BallRoller):
+    if "motor constants" in result.test.setup.limits:
         words.append(
             "Results are only as traceable as the motor constants, the transmissions and their efficiency, and the set-up's "
             "compliance that were entered; the force is that of a slow motion, with the roller rolling."

@@ -15,7 +15,7 @@ from elastogeo.identification.identification import Asked, identified
 from elastogeo.identification.result import Identification, Parameter, Trace
 from elastogeo.identification.systems import same_force
 from elastogeo.machine import Array
-from elastogeo.observe import LoadedBallBar, MachineTest
+from elastogeo.observe import MachineTest
 from elastogeo.result import Result
 
 
@@ -107,10 +107,9 @@ def level_circularity(result: Identification, traces: Sequence[Trace] | None = N
         Other traces than those measured.
     """
     runs = {run.name: run for run in result.test.runs}
-    setup = result.test.setup
-    if not isinstance(setup, LoadedBallBar):
+    radius = result.test.setup.nominal_radius
+    if radius is None or result.test.setup.extra != "circularity":
         return {}
-    radius = setup.circle.radius
     found = {}
     for level in result.levels:
         paths: dict[int, Path] = {}

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import cast
 
 import numpy as np
 
@@ -198,9 +199,9 @@ def _with_stated(test: MachineTest, observations: Sequence[Observations]) -> Seq
 
 
 def _roller_of(test: MachineTest) -> BallRoller:
-    if not isinstance(test.setup, BallRoller):
+    if test.setup.extra != "stiffness-map":
         raise InputError(f"test {test.name!r} has no ball-roller set-up; identify it with: elastogeo identify")
-    return test.setup
+    return cast("BallRoller", test.setup)
 
 
 def _against_dynamometer(test: MachineTest, pressed: Pressed) -> tuple[ForceAgreement | None, str]:

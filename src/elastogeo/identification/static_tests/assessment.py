@@ -12,12 +12,15 @@ still: without a column of the command it counts as constant.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import cast
 
 import numpy as np
 
 from elastogeo.drive import FEEDBACKS
 from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.identification.identification import identify
+from elastogeo.identification.result import Identification
 from elastogeo.identification.static_tests.cartesian import Principal, cartesian_of
 from elastogeo.identification.static_tests.drive_train import OnAxis, OnAxisRecord, where_in_the_drive
 from elastogeo.identification.static_tests.hysteresis import hysteresis
@@ -33,7 +36,6 @@ from elastogeo.observe import (
     SensorFrame,
     SensorTwist,
     StaticForce,
-    instruments,
     sensor_twist,
 )
 
@@ -71,26 +73,38 @@ def evaluate_static(test: MachineTest, feedback: str = "motor") -> StaticResults
     UnsupportedError
         If the joints cannot be identified at all.
     """
-    if not isinstance(test.setup, StaticForce | DisplacementProbes | SensorFrame):
+    if test.setup.extra not in _EVALUATED:
         raise InputError(_of_another_instrument(test))
     if feedback not in FEEDBACKS:
         raise InputError(f"a position loop is closed on {feedback!r}; say {' or '.join(FEEDBACKS)}")
-    observed = test.observations()
-    joints = identify(test)
-    others = (*influence_checks(test.influences), *joints.verdict)
-    if isinstance(test.setup, StaticForce):
-        places = _places(test.machine, test.runs, observed, known=test.setup.direction is not None, feedback=feedback)
-        return StaticResults(joints, places=places, verdict=(*loading_checks(places), *others))
-    if isinstance(test.setup, DisplacementProbes):
-        found = _cartesian(test.machine, observed, len(test.setup.probes), SETUP.isdisjoint(joints.confounding.labels))
-        return StaticResults(joints, cartesian=found, verdict=(*probe_checks(found), *others))
-    twists, refusal = _twists(test.setup, test.runs, observed, test.resolution)
-    return StaticResults(joints, twists=twists, refusal=refusal, verdict=(*twist_checks(twists, refusal), *others))
+    found = _EVALUATED[test.setup.extra](test, identify(test), test.observations(), feedback)
+    others = (*influence_checks(test.influences), *found.joints.verdict)
+    return replace(found, verdict=(*found.verdict, *others))
+
+
+def _of_cycles(test: MachineTest, joints: Identification, observed: Sequence[Observations], feedback: str) -> StaticResults:
+    known = cast("StaticForce", test.setup).direction is not None
+    places = _places(test.machine, test.runs, observed, known=known, feedback=feedback)
+    return StaticResults(joints, places=places, verdict=loading_checks(places))
+
+
+def _of_probes(test: MachineTest, joints: Identification, observed: Sequence[Observations], _: str) -> StaticResults:
+    probes = len(cast("DisplacementProbes", test.setup).probes)
+    found = _cartesian(test.machine, observed, probes, SETUP.isdisjoint(joints.confounding.labels))
+    return StaticResults(joints, cartesian=found, verdict=probe_checks(found))
+
+
+def _of_frame(test: MachineTest, joints: Identification, observed: Sequence[Observations], _: str) -> StaticResults:
+    twists, refusal = _twists(cast("SensorFrame", test.setup), test.runs, observed, test.resolution)
+    return StaticResults(joints, twists=twists, refusal=refusal, verdict=twist_checks(twists, refusal))
+
+
+_EVALUATED = {"loading-cycles": _of_cycles, "cartesian-stiffness": _of_probes, "twist": _of_frame}
+"""How each kind of extra result is made."""
 
 
 def _of_another_instrument(test: MachineTest) -> str:
-    kind = type(test.setup)
-    name = next((name for name, known in instruments().items() if known is kind), kind.__name__)
+    name = test.instrument
     command = "brbd" if name == "ball-roller" else "identify"
     return (
         f"test {test.name!r} was made with a {name}; a static test is made with static-force, displacement-probes or "

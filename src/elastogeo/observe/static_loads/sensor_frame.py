@@ -53,9 +53,6 @@ class Sensor:
     point: Point
     direction: Direction
 
-    extra: ClassVar = "twist"
-    limits: ClassVar = ("force", "sensor")
-
     def __post_init__(self) -> None:
         """Refuse a sensor without place or direction."""
         if not np.isfinite(self.point).all():
@@ -113,6 +110,9 @@ class SensorFrame(Setup):
     in_workpiece: bool = False
     tool: Point | None = None
     ramp: bool = True
+
+    extra: ClassVar = "twist"
+    limits: ClassVar = ("force", "sensor")
 
     def __post_init__(self) -> None:
         """Refuse a frame without sensors, and a direction that is none."""
