@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -10,7 +11,7 @@ import numpy as np
 from elastogeo.errors import InputError
 from elastogeo.machine import Feed, Machine, Point
 from elastogeo.observe.bars.ball_bar import LoadedBallBar
-from elastogeo.observe.circle import Circle, circle_facts
+from elastogeo.observe.circle import Circle, circle_facts, circle_parameters
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations
@@ -55,6 +56,15 @@ class BallBar(Setup):
     def nominal_radius(self) -> float:
         """That of the circle."""
         return self.circle.radius
+
+    @property
+    def own_to_run(self) -> tuple[str, ...]:
+        """The offsets of the circle's centre."""
+        return ("E_[XYZ]t0",)
+
+    def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
+        """The faults that a bar without load shows."""
+        return circle_parameters(self.circle, loaded=False)
 
     def facts(self) -> tuple[SetupFact, ...]:
         """Circle and feed."""
