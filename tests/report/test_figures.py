@@ -14,8 +14,8 @@ import pytest
 from elastogeo.errors import InputError
 from elastogeo.identification import diagnose
 from elastogeo.report import MissingExtraError, figures, parameter_rows, save_figures
-from elastogeo.report.figures import inline_svg
-from elastogeo.report.style import force_colours, nice_step, thinned
+from elastogeo.report.drawing.style import force_colours, nice_step, thinned
+from elastogeo.report.drawing.svg import inline_svg
 
 ALWAYS = ["traces", "residuals", "contributions", "patterns"]
 

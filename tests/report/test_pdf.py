@@ -13,8 +13,8 @@ import pytest
 import typst
 
 from elastogeo.report import MissingExtraError, parameter_rows, pdf_report, save_pdf, sentence_of
-from elastogeo.report.context import report_context
-from elastogeo.report.figures import ALTERNATIVES, figure_bytes, figures
+from elastogeo.report.drawing.svg import ALTERNATIVES, figure_bytes, figures
+from elastogeo.report.identification.view import report_context
 from elastogeo.report.numbers import pretty
 
 HOSTILE = r'#panic("run") *bold* _it_ $x$ <label> @cite \ [x] ] " #import "@preview/x:1.0.0" // /* = head'

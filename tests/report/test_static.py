@@ -14,8 +14,8 @@ from elastogeo.identification.static_tests.assessment import evaluate_static
 from elastogeo.identification.static_tests.result import StaticResults
 from elastogeo.machine import Machine, parse_topology
 from elastogeo.observe import MachineTest, Question, Run, StaticForce
-from elastogeo.report.as_json.static import STATIC_SCHEMA, static_json
-from elastogeo.report.static import StaticTable, hysteresis_figure, save_static, static_tables
+from elastogeo.report.static_tests.document import STATIC_SCHEMA, static_json
+from elastogeo.report.static_tests.tables import StaticTable, hysteresis_figure, save_static, static_tables
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 KEYS = {
@@ -128,7 +128,7 @@ def test_json_numbers_are_those_of_the_result(examples: dict[str, StaticResults]
 
 
 def test_every_key_is_explained_at_the_top(examples: dict[str, StaticResults], pulled: StaticResults) -> None:
-    import elastogeo.report.as_json.static as module
+    import elastogeo.report.static_tests.document as module
 
     def keys(value: object) -> set[str]:
         if isinstance(value, dict):

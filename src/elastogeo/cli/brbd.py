@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, TestPath, refuse_if
+from elastogeo.cli.options import AsJson, Report, TestPath
 
 
 def brbd(
@@ -15,7 +15,7 @@ def brbd(
     rig_test: Annotated[
         Path | None, typer.Option("--rig-test", help="The same test with a rig of known compliance in the loop.")
     ] = None,
-    report: Annotated[Path | None, typer.Option(help="Folder to write the report and its figures to.")] = None,
+    report: Report = None,
     as_json: AsJson = False,
 ) -> None:
     """Map the stiffness that a ball-roller test shows.
@@ -28,23 +28,12 @@ def brbd(
       elastogeo brbd my-test --report my-report
     """
     from elastogeo.cli import screen
-    from elastogeo.cli.stiffness_screen import show_stiffness
     from elastogeo.formats import read_test
     from elastogeo.identification import map_stiffness
-    from elastogeo.report import save_stiffness, stiffness_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
         asked = read_test(test)
         other = read_test(rig_test) if rig_test else None
         step("identifying")
         found = map_stiffness(asked, other)
-        written = screen.write_report(found.joints, report, step) if report else None
-        if report:
-            save_stiffness(found, report)
-    if as_json:
-        screen.show_json(stiffness_json(found))
-    else:
-        show_stiffness(found)
-        if written:
-            screen.say(f"Report: {written}, {written.with_name('stiffness.svg')}")
-    refuse_if((*found.verdict, *found.joints.verdict))
+    screen.show(found, report, as_json)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, Parameters, Reference, reference_level
+from elastogeo.cli.options import AsJson, Parameters, Reference, Report, reference_level
 
 
 def compare(
@@ -15,6 +15,7 @@ def compare(
     after: Annotated[Path, typer.Argument(metavar="AFTER", help="The later test of the same machine.")],
     parameters: Parameters = None,
     reference: Reference = "test",
+    report: Report = None,
     as_json: AsJson = False,
 ) -> None:
     """Say what changed between two tests of one machine, and whether it is significant.
@@ -25,14 +26,11 @@ def compare(
     """
     from elastogeo.cli import screen
     from elastogeo.formats import read_test
-    from elastogeo.identification import compare, identify, with_question
-    from elastogeo.report import comparison_json
+    from elastogeo.identification import compare as compared
+    from elastogeo.identification import identify, with_question
 
     with screen.progress("reading the runs", quiet=as_json) as step:
         asked = [with_question(read_test(test), parameters, None, reference_level(reference)) for test in (before, after)]
         step("identifying both tests")
-        compared = compare(*(identify(test) for test in asked))
-    if as_json:
-        screen.show_json(comparison_json(compared))
-    else:
-        screen.show_comparison(compared)
+        found = compared(*(identify(test) for test in asked))
+    screen.show(found, report, as_json)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, Parameters, Prefer, Reciprocal, Reference, TestPath, reference_level
+from elastogeo.cli.options import AsJson, Parameters, Prefer, Reciprocal, Reference, Report, TestPath, reference_level
 
 
 def confounding(
@@ -18,6 +18,7 @@ def confounding(
     planned: Annotated[
         int, typer.Option(help="Readings of a full turn to assume for every run, instead of reading the run files.")
     ] = 0,
+    report: Report = None,
     as_json: AsJson = False,
 ) -> None:
     """Say what a test can and cannot tell apart.
@@ -27,16 +28,10 @@ def confounding(
       elastogeo confounding my-test --planned 360 -p 'C_*'
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import full_turn, read_test
-    from elastogeo.identification import confounding_of, systems_of, what_reciprocity_buys, with_question
-    from elastogeo.report import confounding_json
+    from elastogeo.formats import read_test
+    from elastogeo.identification import explain, with_question
 
-    planned_test = read_test(test, full_turn(planned)) if planned else read_test(test)
-    asked = with_question(planned_test, parameters, prefer, reference_level(reference), reciprocal=reciprocal)
-    found = confounding_of(asked, systems_of(asked))
-    if as_json:
-        screen.show_json(confounding_json(found, asked))
-    else:
-        screen.show_confounding(found)
-        if reciprocal:
-            screen.say(what_reciprocity_buys(asked).sentence)
+    asked = with_question(
+        read_test(test, planned=planned), parameters, prefer, reference_level(reference), reciprocal=reciprocal
+    )
+    screen.show(explain(asked), report, as_json)

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-import typer
-
-from elastogeo.cli.options import AsJson, Parameters, Reference, TestPath, reference_level, refuse_if
+from elastogeo.cli.options import AsJson, Parameters, Reference, Report, TestPath, reference_level
 
 
 def diagnose(
     test: TestPath,
     parameters: Parameters = None,
     reference: Reference = "test",
-    significant: Annotated[
-        bool, typer.Option("--significant", help="Show only faults whose interval excludes zero.")
-    ] = False,
+    report: Report = None,
     as_json: AsJson = False,
 ) -> None:
     """Rank the faults of a ball bar test.
@@ -31,15 +25,9 @@ def diagnose(
     from elastogeo.formats import read_test
     from elastogeo.identification import diagnose as diagnosed
     from elastogeo.identification import identify, with_question
-    from elastogeo.report import diagnosis_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
         asked = with_question(read_test(test), parameters, None, reference_level(reference))
         step("identifying")
-        result = identify(asked)
-        diagnosis = diagnosed(result)
-    if as_json:
-        screen.show_json(diagnosis_json(diagnosis, result))
-    else:
-        screen.show_diagnosis(diagnosis, result, significant)
-    refuse_if(result.verdict)
+        found = diagnosed(identify(asked))
+    screen.show(found, report, as_json)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, refuse_if
+from elastogeo.cli.options import AsJson, Report
 
 
 def drive(
@@ -19,7 +19,7 @@ def drive(
         list[str] | None, typer.Option("--held-out", help="Run that is predicted only; may be repeated.")
     ] = None,
     compare: Annotated[bool, typer.Option(help="Compare richer models on left-out runs.")] = True,
-    report: Annotated[Path | None, typer.Option(help="Folder to write the figures to.")] = None,
+    report: Report = None,
     as_json: AsJson = False,
 ) -> None:
     """Identify the torque balance of feed drives: inertia, friction, constant, loads.
@@ -34,22 +34,11 @@ def drive(
     from dataclasses import replace
 
     from elastogeo.cli import screen
-    from elastogeo.cli.drive_screen import show_drives
     from elastogeo.formats import read_drives
     from elastogeo.identification import identify_drives
-    from elastogeo.report import drive_json, save_drive_figures
 
     with screen.progress("reading the logs", quiet=as_json) as step:
         test = read_drives(logs, tuple(axis or ()), tuple(held_out or ()))
         step("identifying the drives")
         result = identify_drives(test if compare else replace(test, compare=False))
-        if report:
-            step("drawing the figures")
-            save_drive_figures(result, report)
-    if as_json:
-        screen.show_json(drive_json(result))
-    else:
-        show_drives(result)
-        if report:
-            screen.say(f"Figures: {report}")
-    refuse_if(result.verdict)
+    screen.show(result, report, as_json)

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
-
-import typer
-
 from elastogeo.cli.options import (
     AsJson,
     Levels,
@@ -14,11 +9,11 @@ from elastogeo.cli.options import (
     Prefer,
     Reciprocal,
     Reference,
+    Report,
     Robust,
     TestPath,
     WithoutLevels,
     reference_level,
-    refuse_if,
 )
 
 
@@ -31,7 +26,7 @@ def identify(
     without_level: WithoutLevels = None,
     reciprocal: Reciprocal = False,
     robust: Robust = False,
-    report: Annotated[Path | None, typer.Option(help="Folder to write the report and its figures to.")] = None,
+    report: Report = None,
     as_json: AsJson = False,
 ) -> None:
     """Identify the parameters that a test asks for.
@@ -44,7 +39,6 @@ def identify(
     from elastogeo.formats import read_test
     from elastogeo.identification import identify as identified
     from elastogeo.identification import with_question
-    from elastogeo.report import identification_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
         asked = with_question(
@@ -52,11 +46,4 @@ def identify(
         )
         step("identifying")
         result = identified(asked)
-        written = screen.write_report(result, report, step) if report else None
-    if as_json:
-        screen.show_json(identification_json(result))
-    else:
-        screen.show_identification(result)
-        if written:
-            screen.say(f"Report: {written}")
-    refuse_if(result.verdict)
+    screen.show(result, report, as_json)

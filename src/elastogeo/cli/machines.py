@@ -22,12 +22,14 @@ def machines(
     """
     from elastogeo.cli import screen
     from elastogeo.formats import find_machine, read_machine, shipped_machines
-    from elastogeo.report import machine_json
+    from elastogeo.report import Table, view_of
 
-    found = [find_machine(name, Path.cwd())] if name else [read_machine(path) for path in shipped_machines().values()]
+    if name:
+        screen.show(find_machine(name, Path.cwd()), None, as_json)
+        return
+    found = {key: read_machine(path) for key, path in shipped_machines().items()}
     if as_json:
-        screen.show_json([machine_json(machine) for machine in found])
-    elif name:
-        screen.show_machine(found[0])
+        screen.show_json({"machines": [view_of(machine).document for machine in found.values()]})
     else:
-        screen.show_machines(dict(zip(shipped_machines(), found, strict=True)))
+        rows = tuple((key, m.name, m.topology.compact, m.topology.iso) for key, m in found.items())
+        screen.show_table(Table(("name", "machine", "topology", "ISO 10791-6"), rows, words=(0, 1, 2, 3)))

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
 from elastogeo.errors import InputError
 
-if TYPE_CHECKING:
-    from elastogeo.identification import Check
-
 TestPath = Annotated[Path, typer.Argument(metavar="TEST", help="A folder with a test.toml, or a test file.")]
+Report = Annotated[Path | None, typer.Option(help="Folder to write the report to: a page, a PDF, figures, JSON.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 Parameters = Annotated[
     list[str] | None,
@@ -44,9 +41,3 @@ def reference_level(given: str) -> float | Literal["test", "none"]:
         return float(given)
     except ValueError:
         raise InputError(f"--reference is {given!r}; give a force in N, none, or test (as the test says)") from None
-
-
-def refuse_if(verdict: Iterable[Check]) -> None:
-    """End with exit code 1 if a decisive check of a verdict failed: the data do not support what was asked."""
-    if any(check.decisive and check.passed is False for check in verdict):
-        raise typer.Exit(1)

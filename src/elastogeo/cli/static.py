@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, TestPath, refuse_if
+from elastogeo.cli.options import AsJson, Report, TestPath
 
 
 def static(
@@ -15,7 +14,7 @@ def static(
     feedback: Annotated[
         str, typer.Option(help="What the loaded axis closes its position loop on: motor (its encoder) or scale.")
     ] = "motor",
-    report: Annotated[Path | None, typer.Option(help="Folder to write the report and its figures to.")] = None,
+    report: Report = None,
     as_json: AsJson = False,
 ) -> None:
     """Evaluate a static test: force ramps, weights, displacement probes, a frame of sensors.
@@ -29,21 +28,11 @@ def static(
       elastogeo static examples/static-force --report my-report
     """
     from elastogeo.cli import screen
-    from elastogeo.cli.static_screen import show_static
     from elastogeo.formats import read_test
     from elastogeo.identification.static_tests import evaluate_static
-    from elastogeo.report import save_static
-    from elastogeo.report.as_json import static_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
         asked = read_test(test)
         step("evaluating")
         found = evaluate_static(asked, feedback)
-        written = [screen.write_report(found.joints, report, step), *save_static(found, report)] if report else []
-    if as_json:
-        screen.show_json(static_json(found))
-    else:
-        show_static(found)
-        if written:
-            screen.say(f"Report: {', '.join(map(str, written))}")
-    refuse_if(found.verdict)
+    screen.show(found, report, as_json)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from elastogeo.cli.options import AsJson, Parameters, Reference, TestPath, reference_level
+from elastogeo.cli.options import AsJson, Parameters, Reference, Report, TestPath, reference_level
 
 
 def whatif(
@@ -16,6 +16,7 @@ def whatif(
     ],
     parameters: Parameters = None,
     reference: Reference = "test",
+    report: Report = None,
     as_json: AsJson = False,
 ) -> None:
     """Predict the trace and its circular deviation with named faults corrected.
@@ -27,14 +28,9 @@ def whatif(
     from elastogeo.cli import screen
     from elastogeo.formats import read_test
     from elastogeo.identification import identify, what_if, with_question
-    from elastogeo.report import what_if_json
 
     with screen.progress("reading the runs", quiet=as_json) as step:
         asked = with_question(read_test(test), parameters, None, reference_level(reference))
         step("identifying")
-        result = identify(asked)
-        predicted = what_if(result, correct)
-    if as_json:
-        screen.show_json(what_if_json(predicted, result))
-    else:
-        screen.show_what_if(predicted)
+        predicted = what_if(identify(asked), correct)
+    screen.show(predicted, report, as_json)

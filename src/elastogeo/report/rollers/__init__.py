@@ -1,1 +1,1 @@
-"""A ball-roller test in words."""
+"""The report of a ball-roller test."""

@@ -1,0 +1,1 @@
+"""The ground of all figures: the house style, deviations around a circle, files."""

@@ -1,0 +1,120 @@
+"""Deviations around a circle, magnified: what every figure of a circular test is drawn on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from elastogeo.identification import Identification
+from elastogeo.machine import Array
+from elastogeo.report.drawing.style import FAINT, GREY, INK, SMALL, nice_step, thinned
+from elastogeo.report.text import UM
+
+_OUTWARD, _INWARD = 0.8, 0.6
+"""The greatest deviations are drawn at most at these parts of the nominal radius."""
+_DIVISIONS = 6
+_EDGE = 1e-9
+_SPOKES = ((0, "left", "center"), (90, "center", "bottom"), (180, "right", "center"), (270, "center", "top"))
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """How deviations are drawn about a nominal circle.
+
+    Attributes
+    ----------
+    radius : float
+        Of the nominal circle, as drawn.
+    magnification : float
+    division : float [mm]
+        Deviation from one ring to the next.
+    inner, outer : int
+        The innermost and outermost ring, counted from the nominal circle.
+    """
+
+    radius: float
+    magnification: float
+    division: float
+    inner: int
+    outer: int
+
+    @property
+    def limit(self) -> float:
+        """Radius that holds all that is drawn."""
+        return self.radius + (self.outer + 0.3) * self.division * self.magnification
+
+
+def scale_for(deviations: Array, radius: float) -> Scale:
+    """The scale at which all deviations [mm] can be seen."""
+    inward, outward = max(-float(deviations.min()), 0.0), max(float(deviations.max()), 0.0)
+    magnification = nice_step(radius / (max(outward / _OUTWARD, inward / _INWARD) or 1.0))
+    division = nice_step((inward + outward or 1.0) / _DIVISIONS * 2)
+    inner, outer = -ceil(inward / division - _EDGE), max(ceil(outward / division - _EDGE), 1)
+    return Scale(radius, magnification, division, inner, outer)
+
+
+def rings(ax: Axes, scale: Scale) -> None:
+    """An empty polar drawing: the nominal circle, and a ring every division."""
+    ax.set_aspect("equal")
+    ax.set_axis_off()
+    for k in range(scale.inner, scale.outer + 1):
+        radius = scale.radius + k * scale.division * scale.magnification
+        ring(ax, radius, GREY if k == 0 else FAINT, 1.1 if k == 0 else 0.6)
+    spokes(ax, scale.limit)
+
+
+def ring(ax: Axes, radius: float, colour: str, width: float, style: str = "-") -> None:
+    """A full circle."""
+    around = np.linspace(0, 2 * np.pi, 181)
+    ax.plot(radius * np.cos(around), radius * np.sin(around), color=colour, linewidth=width, linestyle=style, zorder=1)
+
+
+def spokes(ax: Axes, radius: float) -> None:
+    """The four directions of a circular test, labelled with their angles."""
+    for degrees, ha, va in _SPOKES:
+        x, y = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+        ax.plot([0, radius * x], [0, radius * y], color=FAINT, linewidth=0.6, zorder=0)
+        ax.text(1.03 * radius * x, 1.03 * radius * y, f"{degrees}°", ha=ha, va=va, fontsize=SMALL, color=GREY)
+
+
+def around(angle: Array, deviation: Array, scale: Scale, traces: int) -> tuple[Array, Array]:
+    """Nominal circle plus magnified deviation, as points of the plane; the gap of a full turn is closed."""
+    angle, deviation = thinned(angle, deviation, traces)
+    gap = 2 * np.pi - float(np.ptp(angle))
+    if 0 < gap < 3 * 2 * np.pi / len(angle):
+        angle, deviation = np.append(angle, angle[0]), np.append(deviation, deviation[0])
+    r = scale.radius + scale.magnification * deviation
+    return r * np.cos(angle), r * np.sin(angle)
+
+
+def division_note(scale: Scale, to_scale: bool) -> str:
+    """What a ring means, and how much the deviations are magnified."""
+    note = f"one division = {scale.division * UM:g} µm"
+    return f"{note}; deviations are magnified {scale.magnification:g} times" if to_scale else note
+
+
+def division_bar(ax: Axes, scale: Scale, to_scale: bool) -> None:
+    """A bar as long as one division, with what it means."""
+    length = scale.division * scale.magnification
+    left, bottom = -scale.limit, -1.16 * scale.limit
+    ax.plot([left, left + length], [bottom, bottom], color=INK, linewidth=1.4, marker="|", markersize=5, clip_on=False)
+    note = division_note(scale, to_scale)
+    ax.text(left + length + 0.05 * scale.limit, bottom, note, ha="left", va="center", fontsize=SMALL)
+
+
+def is_angular(result: Identification) -> bool:
+    """Whether the readings go around a circle."""
+    return result.test.setup.pose_quantity == "angle"
+
+
+def nominal_radius(result: Identification) -> float | None:
+    """Radius [mm] of the circle that the test was to make, if it was to make one."""
+    return result.test.setup.nominal_radius
+
+
+def pose_axis(result: Identification) -> tuple[str, float]:
+    """Label of what the readings count along, and the factor to its shown unit."""
+    return ("angle (°)", 180 / np.pi) if is_angular(result) else (result.test.setup.pose_quantity, 1.0)

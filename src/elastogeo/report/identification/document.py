@@ -1,0 +1,240 @@
+"""`elastogeo.identification/1`: what one test says.
+
+test, verdict : as in `envelope`
+by_run : whether the uncertainties count on independent runs; if not, on independent readings
+parameters : the retained set, [{name, value, unit, standard_uncertainty, interval95, stands_for, peak_to_peak_um, share,
+    meaning, axis, elastic, separated, degrees_of_freedom, naive_standard_uncertainty, budget}]
+    `stands_for` is {name: coefficient}, `peak_to_peak_um` has the sign of the value and is that at the highest force,
+    `share` is 0 to 1 of the sum of all absolute ones; `axis` is empty for the set-up, `elastic` is true if a load drives
+    it. Where `separated` is false, compliance and geometry are not told apart in what it stands for: only the sum is
+    determined, and `name`, `meaning` and `elastic` must not be taken for the cause. `standard_uncertainty`,
+    `degrees_of_freedom` and `interval95` are those of the budget; `naive_standard_uncertainty` counts on independent
+    readings. `budget` is [{label, type, distribution, degrees_of_freedom, contribution}], greatest first, `type` "A" or
+    "B", `contribution` the standard uncertainty that the influence brings, in `unit`.
+null : [name], parameters that change no reading
+confounded : [[name, name, ...]], parameters that always produce the same trace but for its size
+rank, columns : how many combinations are determined, of how many parameters
+condition_raw, condition_scaled : of the retained columns as they are, and scaled to unit length
+rmse_um : over all readings
+levels : [{force_N, readings, rmse_um, fitness_percent, elastic_um, geometric_um}], forces and readings less the
+    reference's if one was taken off; the last two are [least, greatest] deviation that compliance, and that geometry
+    without the set-up, cause; null unless every parameter is separated
+local : [{forces_N, values: [{name, value, standard_uncertainty, degrees_of_freedom, interval95, peak_to_peak_um}]}], from
+    adjacent levels
+local_change : null, or {statistic, q, degrees_of_freedom, p_value, significant, each: {name: p_value}}, whether the local
+    estimates differ by more than their uncertainty
+models : null, or {supported, models: [{name, parameters, rmse_um, left_out_run_um, left_out_level_um, bic, p_value,
+    exponent, fitness_percent: [{force_N, value}]}]}; `supported` is decided by left-out levels; `bic` (less that of the
+    first) and `p_value` (F-test against the first) count on independent readings
+consistency : null, or {state, sentence, constrained: {name: value}, distance, dimension, p_value, p_joint, p_projected,
+    p_negative: {name: p}, violated: [name], outward: {name: coefficient}}, whether the compliances agree with physics
+repeats : null, or {levels: {level: runs}, combinations, mean, combination_std, estimate, standard_uncertainty,
+    degrees_of_freedom, note}; from mean to degrees_of_freedom they are {name: number}; `estimate` is from all repeated
+    runs together, `standard_uncertainty` is its own, from the scatter of the runs
+set_up : [{run, E_Xt0_um, ...}], each run's own set-up, empty where it is one for all runs or not in the model
+minimum_norm : {name: value} over all parameters that were asked for; not an estimate of each
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from elastogeo.estimate import Confounding, Repeatability
+from elastogeo.identification import (
+    Agreement,
+    BudgetLine,
+    Change,
+    Comparison,
+    Consistency,
+    Identification,
+    Level,
+    Local,
+    Parameter,
+)
+from elastogeo.report.document import UM, document, in_um, tested, verdict_entries
+
+IDENTIFICATION_SCHEMA = "elastogeo.identification/1"
+
+SHARED_RUNS = (
+    "Combinations share runs and are not independent: combination_std is about that of a single combination, and dividing "
+    "it by the root of their number would claim far too much. standard_uncertainty comes from the scatter of the runs and "
+    "is that of the estimate from all of them; it is a repeatability, not a full uncertainty."
+)
+SHARED_REFERENCE = (
+    "The scatter of the reference, which all differences share and the repeats do not show, is added as if the reference "
+    "scattered like the repeated runs."
+)
+
+
+def identification_json(result: Identification) -> dict[str, Any]:
+    """An identification as one JSON object (`elastogeo.identification/1`)."""
+    separated = all(parameter.separated for parameter in result.parameters)
+    return document(
+        IDENTIFICATION_SCHEMA,
+        {
+            "test": tested(result.test, result.reference_force),
+            "by_run": result.by_run,
+            "parameters": [_parameter(result, k, parameter) for k, parameter in enumerate(result.parameters)],
+            **confounding_entries(result.confounding),
+            "rmse_um": result.rmse * UM,
+            "levels": [_level(level, separated) for level in result.levels],
+            "local": [_local(local) for local in result.local],
+            "local_change": None if result.local_change is None else change_entry(result.local_change),
+            "models": None if result.models is None else _models(result.models),
+            "consistency": None if result.consistency is None else _consistency(result.consistency),
+            "repeats": None if result.repeats is None else _repeats(result.repeats, result.reference_force),
+            "set_up": [
+                {"run": run, **{f"{name}_um": value * UM for name, value in values.items()}}
+                for run, values in result.set_up.items()
+            ],
+            "minimum_norm": result.minimum_norm,
+            "verdict": verdict_entries(result.verdict),
+        },
+    )
+
+
+def confounding_entries(found: Confounding) -> dict[str, Any]:
+    """What a test can and cannot tell apart."""
+    return {
+        "null": found.null,
+        "confounded": [group for group in found.groups if len(group) > 1],
+        "rank": found.rank,
+        "columns": len(found.labels),
+        "condition_raw": found.condition_raw,
+        "condition_scaled": found.condition_scaled,
+    }
+
+
+def change_entry(change: Change) -> dict[str, Any]:
+    """A joint test of differences."""
+    return {
+        "statistic": change.statistic,
+        "q": change.q,
+        "degrees_of_freedom": change.degrees_of_freedom,
+        "p_value": change.p_value,
+        "significant": change.significant,
+        "each": change.each,
+    }
+
+
+def _parameter(result: Identification, k: int, parameter: Parameter) -> dict[str, Any]:
+    return {
+        "name": parameter.name,
+        "value": parameter.value,
+        "unit": parameter.unit,
+        "standard_uncertainty": parameter.standard_uncertainty,
+        "interval95": parameter.interval,
+        "stands_for": parameter.stands_for,
+        "peak_to_peak_um": parameter.peak_to_peak * UM,
+        "share": parameter.share,
+        "meaning": parameter.meaning,
+        "axis": parameter.axis,
+        "elastic": parameter.elastic,
+        "separated": parameter.separated,
+        "degrees_of_freedom": result.budget.degrees_of_freedom[k],
+        "naive_standard_uncertainty": result.naive.standard_uncertainty[k],
+        "budget": [_budget_line(line) for line in result.budget.lines[k]],
+        "monte_carlo": None if result.agreement is None else _draws(result.agreement, k),
+    }
+
+
+def _draws(agreement: Agreement, k: int) -> dict[str, Any]:
+    """What random draws say of one parameter, and whether the first order agrees."""
+    return {
+        "standard_uncertainty": agreement.draws.standard_uncertainty[k],
+        "interval95": agreement.draws.interval[k],
+        "trials": agreement.draws.trials,
+        "agrees": bool(agreement.agrees[k]),
+    }
+
+
+def _budget_line(line: BudgetLine) -> dict[str, Any]:
+    return {
+        "label": line.label,
+        "type": "B" if line.type_b else "A",
+        "distribution": line.distribution,
+        "degrees_of_freedom": line.degrees_of_freedom,
+        "contribution": line.contribution,
+    }
+
+
+def _level(level: Level, separated: bool) -> dict[str, Any]:
+    return {
+        "force_N": level.force,
+        "readings": level.readings,
+        "rmse_um": level.rmse * UM,
+        "fitness_percent": level.fitness,
+        "elastic_um": [bound * UM for bound in level.elastic] if separated else None,
+        "geometric_um": [bound * UM for bound in level.geometric] if separated else None,
+    }
+
+
+def _local(local: Local) -> dict[str, Any]:
+    solution, bounds = local.solution, local.solution.interval()
+    return {
+        "forces_N": local.forces,
+        "values": [
+            {
+                "name": name,
+                "value": solution.values[k],
+                "standard_uncertainty": solution.standard_uncertainty[k],
+                "degrees_of_freedom": solution.degrees_of_freedom[k],
+                "interval95": bounds[k],
+                "peak_to_peak_um": local.peak_to_peak[name] * UM,
+            }
+            for k, name in enumerate(solution.labels)
+        ],
+    }
+
+
+def _models(found: Comparison) -> dict[str, Any]:
+    return {
+        "supported": found.supported,
+        "models": [
+            {
+                "name": model.name,
+                "parameters": model.labels,
+                "rmse_um": model.rmse * UM,
+                "left_out_run_um": in_um(model.left_out_run),
+                "left_out_level_um": in_um(model.left_out_level),
+                "bic": model.bic,
+                "p_value": model.p_value,
+                "exponent": model.exponent,
+                "fitness_percent": [{"force_N": force, "value": value} for force, value in model.fitness.items()],
+            }
+            for model in found.models
+        ],
+    }
+
+
+def _consistency(found: Consistency) -> dict[str, Any]:
+    return {
+        "state": found.state,
+        "sentence": found.sentence,
+        "constrained": found.constrained,
+        "distance": found.distance,
+        "dimension": found.dimension,
+        "p_value": found.p_value,
+        "p_joint": found.p_joint,
+        "p_projected": found.p_projected,
+        "p_negative": found.p_negative,
+        "violated": found.violated,
+        "outward": found.outward,
+    }
+
+
+def _repeats(repeats: Repeatability, reference_force: float | None) -> dict[str, Any]:
+    solution = repeats.solution
+    by_name = {
+        "mean": repeats.combination_mean,
+        "combination_std": repeats.combination_std,
+        "estimate": solution.values,
+        "standard_uncertainty": solution.standard_uncertainty,
+        "degrees_of_freedom": solution.degrees_of_freedom,
+    }
+    return {
+        "levels": dict(repeats.runs),
+        "combinations": len(repeats.combinations),
+        **{key: dict(zip(solution.labels, values, strict=True)) for key, values in by_name.items()},
+        "note": SHARED_RUNS if reference_force is None else f"{SHARED_RUNS} {SHARED_REFERENCE}",
+    }

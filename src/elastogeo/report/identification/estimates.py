@@ -1,0 +1,72 @@
+"""Estimates beside one another: local against global with force, and from every combination of repeats."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from elastogeo.estimate import Repeatability
+from elastogeo.identification import Identification
+from elastogeo.machine import Array
+from elastogeo.report.drawing.style import BLUE, GREY, INK, ORANGE, SMALL, grid
+from elastogeo.report.numbers import DisplayUnit
+from elastogeo.report.text import display_units, label, labels
+
+_LONG = 12
+"""Names from this many letters on leave no room for the unit beside them."""
+
+
+def local_figure(result: Identification) -> Figure:
+    """Local estimates from neighbouring force levels with their 95 % intervals, against the global one (Figure 4.13)."""
+    shown = display_units(result)
+    figure, axes = grid(len(result.parameters), 3 if len(result.parameters) != 4 else 2, 1.85)
+    bounds = result.solution.interval()
+    for ax, parameter, interval in zip(axes, result.parameters, bounds, strict=True):
+        unit = shown[parameter.name]
+        _whole(ax, parameter.value * unit.factor, interval * unit.factor)
+        for local in result.local:
+            k = local.solution.labels.index(parameter.name)
+            value = local.solution.values[k] * unit.factor
+            low, high = local.solution.interval()[k] * unit.factor
+            middle = sum(local.forces) / len(local.forces)
+            ax.plot([min(local.forces), max(local.forces)], [value, value], color=BLUE, linewidth=0.8, alpha=0.6)
+            ax.plot([middle, middle], [low, high], color=BLUE, linewidth=1.2, marker="_", markersize=5)
+            ax.plot([middle], [value], color=BLUE, marker="o", markersize=3.5)
+        _label(ax, label(parameter), unit)
+    over = "" if result.reference_force is None else f" over {result.reference_force:g} N"
+    figure.supxlabel(f"force{over} (N)", fontsize=8.5)
+    return figure
+
+
+def repeats_figure(result: Identification, repeats: Repeatability) -> Figure:
+    """Estimates from every combination of repeated runs, their mean, and its run-level 95 % interval (Figure 4.15)."""
+    shown = display_units(result)
+    shown_as = labels(result)
+    solution, bounds = repeats.solution, repeats.solution.interval()
+    figure, axes = grid(len(solution.labels), 3 if len(solution.labels) != 4 else 2, 1.85)
+    number = np.arange(1, len(repeats.combinations) + 1)
+    for k, (ax, name) in enumerate(zip(axes, solution.labels, strict=True)):
+        unit = shown[name]
+        _whole(ax, solution.values[k] * unit.factor, bounds[k] * unit.factor)
+        ax.plot(number, repeats.combinations[:, k] * unit.factor, color=BLUE, marker="o", markersize=2.8, linestyle="")
+        _label(ax, shown_as[name], unit)
+    figure.supxlabel("combination of one run per level", fontsize=8.5)
+    return figure
+
+
+def _whole(ax: Axes, value: float, interval: Array) -> None:
+    """The estimate from everything, with its interval."""
+    ax.axhspan(interval[0], interval[1], color=ORANGE, alpha=0.22, linewidth=0, zorder=0)
+    ax.axhline(value, color=ORANGE, linewidth=1.0, linestyle=(0, (5, 2)), zorder=1)
+
+
+def _label(ax: Axes, name: str, unit: DisplayUnit) -> None:
+    if len(name) > _LONG:
+        ax.set_title(f"{name}\n{unit.name}", loc="left", fontsize=SMALL, color=INK, pad=4)
+    else:
+        ax.set_title(name, loc="left", weight="bold", color=INK, pad=4)
+        ax.set_title(unit.name, loc="right", fontsize=SMALL, color=GREY, pad=4)
+    ax.ticklabel_format(axis="y", useOffset=False)
+    ax.locator_params(axis="y", nbins=5)
+    ax.margins(x=0.06, y=0.12)

@@ -1,0 +1,38 @@
+"""`elastogeo.explanation/1`: what a test can tell apart, before anything is estimated.
+
+test : as in `envelope`
+null, confounded, rank, columns, condition_raw, condition_scaled : as in `identification`
+groups : all groups, single ones included
+retained : [{name, stands_for}]
+weakest : {name: coefficient}, the combination of the retained parameters, each scaled to a column of unit length, that
+    the test sees least
+singular_values : of the scaled retained columns, greatest first
+tolerance : relative, of the decision
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from elastogeo.identification import Explanation
+from elastogeo.report.document import document, tested
+from elastogeo.report.identification.document import confounding_entries
+
+EXPLANATION_SCHEMA = "elastogeo.explanation/1"
+
+
+def explanation_json(explained: Explanation) -> dict[str, Any]:
+    """What a test can tell apart as one JSON object (`elastogeo.explanation/1`)."""
+    test, confounding = explained.test, explained.confounding
+    return document(
+        EXPLANATION_SCHEMA,
+        {
+            "test": tested(test, test.question.reference_force),
+            **confounding_entries(confounding),
+            "groups": confounding.groups,
+            "retained": [{"name": name, "stands_for": confounding.stands_for(name)} for name in confounding.retained],
+            "weakest": dict(zip(confounding.retained, confounding.weakest, strict=True)),
+            "singular_values": confounding.singular_values,
+            "tolerance": confounding.tolerance,
+        },
+    )

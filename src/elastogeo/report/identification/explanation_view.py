@@ -1,0 +1,49 @@
+"""The view of what a test can and cannot distinguish."""
+
+from __future__ import annotations
+
+from elastogeo.identification import Explanation
+from elastogeo.report.head import head
+from elastogeo.report.identification.explanation_document import explanation_json
+from elastogeo.report.identification.words import confounding_words
+from elastogeo.report.numbers import pretty
+from elastogeo.report.text import combination
+from elastogeo.report.view import KeyValue, Section, Table, View, views
+
+
+@views(Explanation)
+def explanation_view(explained: Explanation) -> View:
+    """All that is shown of an explanation."""
+    test, found = explained.test, explained.confounding
+    asked = len(found.labels)
+    rows = tuple((name, pretty(combination(found.stands_for(name)))) for name in found.retained)
+    table = Table(("parameter", "stands for"), rows, words=(0, 1), title="What is determined")
+    words = tuple(map(pretty, confounding_words(found)))
+    groups = tuple(f"Always together: {', '.join(group)}" for group in found.groups if len(group) > 1)
+    bought = () if explained.reciprocity is None else (pretty(explained.reciprocity.sentence),)
+    answer = (
+        f"All {asked} parameters are determined."
+        if found.rank == asked
+        else f"{asked} parameters, of which this test determines {found.rank} combinations."
+    )
+    document = explanation_json(explained)
+    return View(
+        kind="What a test distinguishes",
+        title=test.machine.name,
+        subtitle=test.name,
+        origin="",
+        head=head(test),
+        sentence=answer,
+        values=(
+            KeyValue("rank", f"{found.rank} of {asked}"),
+            KeyValue("condition number, scaled columns", f"{found.condition_scaled:.4g}"),
+            KeyValue("changes no reading", str(len(found.null)), "parameters"),
+        ),
+        picture=None,
+        checks=(),
+        document=document,
+        rows=document["retained"],
+        tables=(table,),
+        notes=(*words, *groups, *bought),
+        sections=(Section("What this test distinguishes", words, tables=(table,), points=(*groups, *bought)),),
+    )

@@ -1,0 +1,7 @@
+"""Any view as an HTML page that opens offline, and as a PDF; a report's files, written whole or not at all."""
+
+from elastogeo.report.page.files import save_report
+from elastogeo.report.page.html import html_page
+from elastogeo.report.page.pdf import pdf_page
+
+__all__ = ["html_page", "pdf_page", "save_report"]

@@ -1,0 +1,225 @@
+"""`elastogeo.static/1`: what a static test says.
+
+test, verdict : as in `envelope`; the verdict holds the checks of the instrument's results, then those of the joints
+places : [{commands, direction, along, runs, line, refusal, drive, drive_refusal}], of a static force, else empty
+    commands : {axis: value}, where the machine stands [mm, rad]
+    direction : of the force, three components in the foundation
+    along : whether the sensor reads along the force
+    runs : [{run, cycles, branches, left_out, by_cycle, degree, force_range_N, static_compliance, rising_secant,
+        falling_secant, mean_hysteresis, greatest_hysteresis, greatest_at_N, hysteresis_at_zero, backlash, remaining,
+        energy_lost, residual_std_um, refusal}]
+        cycles, branches, left_out : how many there are, and how many branches do not count
+        by_cycle : whether the uncertainties come from the scatter of cycles
+        degree : of the polynomials through the branches
+        static_compliance, rising_secant, falling_secant : numbers [um/N]
+        mean_hysteresis, greatest_hysteresis, hysteresis_at_zero, backlash, remaining : numbers [um], or null
+        energy_lost : number [N mm] of one cycle
+        refusal : why there is no hysteresis; all the rest is then null
+    line : {compliance [um/N], offset [um], residual_std_um, greatest_departure_um}, or null for the reason `refusal`
+    drive : {axis, feedback, parts, whole, limits}, or null (for the reason `drive_refusal`, if positions were recorded)
+        parts : [{names, compliance [um/N], acts, share}]; more than one name where parts are not told apart
+        whole : number [um/N], or null
+        limits : what cannot be said, in sentences
+cartesian : {compliance, undetermined, zeroed, zeros, by_run, residual_std_um, stiffness, symmetry, principal, refusal} of
+    displacement probes, or null
+    compliance : {value_um_per_N, standard_uncertainty_um_per_N, interval95_um_per_N}, matrices in the foundation; row:
+        displacement, column: force; null where it is not determined
+    zeroed : whether the probes count as zeroed without load; else `zeros` holds the number [um] of each
+    stiffness : {value_N_per_um, standard_uncertainty_N_per_um}, matrices, or null for the reason `refusal`
+    symmetry : {differences_um_per_N: XY-YX, XZ-ZX, YZ-ZY, chi_squared, probability}, or null
+    principal : [{direction, direction_uncertainty_rad, compliance [um/N]}], the softest first
+twists : [{run, steps, compliance, degrees_of_freedom, standard_deviation_um, redundancy, outlying, suspect}] of a sensor
+    frame, along the axes in which the sensors are given; else empty
+    steps : [{force_N, readings, translation_um, rotation_urad, translation_uncertainty_um, rotation_uncertainty_urad}]
+    compliance : [six numbers: X, Y, Z in um/N, A, B, C in urad/N]; empty at one force only
+    degrees_of_freedom : of the uncertainties of the steps; null for infinite ones
+    redundancy : by sensor, the share of its error that shows in its own residual
+    outlying : by sensor, the probability that a sound one stands out so far; null where nothing checks it
+    suspect : number, from 1, of the sensor that stands out, or null
+twist_refusal : why a sensor frame gives no twist, or empty
+joints : `elastogeo.identification/1`, of what the test's own question asks for
+
+A number is {value, standard_uncertainty, interval95, degrees_of_freedom}, in the unit in brackets above.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from elastogeo.estimate import Estimate
+from elastogeo.identification.static_tests import (
+    Cartesian,
+    LoadedPlace,
+    LoadedRun,
+    LoadStep,
+    OnAxis,
+    StaticLine,
+    StaticResults,
+    TwistRun,
+)
+from elastogeo.report.document import UM, document, tested, verdict_entries
+from elastogeo.report.identification.document import identification_json
+
+STATIC_SCHEMA = "elastogeo.static/1"
+_MICRO = 1e6
+
+_IN_UM = (
+    "static_compliance",
+    "rising_secant",
+    "falling_secant",
+    "mean_hysteresis",
+    "greatest_hysteresis",
+    "hysteresis_at_zero",
+    "backlash",
+    "remaining",
+)
+
+
+def static_json(found: StaticResults) -> dict[str, Any]:
+    """What a static test says as one JSON object (`elastogeo.static/1`)."""
+    return document(
+        STATIC_SCHEMA,
+        {
+            "test": tested(found.joints.test, found.joints.reference_force),
+            "places": [_place(place) for place in found.places],
+            "cartesian": None if found.cartesian is None else _cartesian(found.cartesian),
+            "twists": [_twist(run) for run in found.twists],
+            "twist_refusal": found.refusal,
+            "joints": identification_json(found.joints),
+            "verdict": verdict_entries(found.verdict),
+        },
+    )
+
+
+def _number(found: Estimate | None, scale: float) -> dict[str, Any] | None:
+    if found is None:
+        return None
+    return {
+        "value": found.value * scale,
+        "standard_uncertainty": found.standard_uncertainty * scale,
+        "interval95": [bound * scale for bound in found.interval()],
+        "degrees_of_freedom": found.degrees_of_freedom,
+    }
+
+
+def _place(place: LoadedPlace) -> dict[str, Any]:
+    return {
+        "commands": place.commands,
+        "direction": place.direction,
+        "along": place.along,
+        "runs": [_run(run) for run in place.runs],
+        "line": None if place.line is None else _line(place.line),
+        "refusal": place.refusal,
+        "drive": None if place.drive is None else _drive(place.drive),
+        "drive_refusal": place.drive_refusal,
+    }
+
+
+def _run(run: LoadedRun) -> dict[str, Any]:
+    found = run.hysteresis
+    return {
+        "run": run.run,
+        "cycles": len(found.cycles) if found else None,
+        "branches": len(found.branches) if found else None,
+        "left_out": len(found.left_out) if found else None,
+        "by_cycle": found.by_cycle if found else None,
+        "degree": found.degree if found else None,
+        "force_range_N": found.range if found else None,
+        **{name: _number(getattr(found, name), UM) if found else None for name in _IN_UM},
+        "greatest_at_N": found.greatest_at if found else None,
+        "energy_lost": _number(found.energy_lost, 1.0) if found else None,
+        "residual_std_um": found.residual_std * UM if found else None,
+        "refusal": run.refusal,
+    }
+
+
+def _line(line: StaticLine) -> dict[str, Any]:
+    return {
+        "compliance": _number(line.compliance, UM),
+        "offset": _number(line.offset, UM),
+        "residual_std_um": line.residual_std * UM,
+        "greatest_departure_um": line.nonlinearity * UM,
+    }
+
+
+def _drive(found: OnAxis) -> dict[str, Any]:
+    return {
+        "axis": found.axis,
+        "feedback": found.feedback,
+        "parts": [
+            {
+                "names": part.names,
+                "compliance": _number(part.compliance, UM),
+                "acts": part.acts,
+                "share": part.share,
+            }
+            for part in found.parts
+        ],
+        "whole": _number(found.whole, UM),
+        "limits": found.limits,
+    }
+
+
+def _cartesian(found: Cartesian) -> dict[str, Any]:
+    compliance, symmetry = found.compliance, found.symmetry
+    return {
+        "compliance": {
+            "value_um_per_N": compliance.compliance * UM,
+            "standard_uncertainty_um_per_N": compliance.standard_uncertainty * UM,
+            "interval95_um_per_N": compliance.interval() * UM,
+        },
+        "undetermined": compliance.undetermined,
+        "zeroed": found.zeroed,
+        "zeros": [_number(zero, UM) for zero in compliance.zeros],
+        "by_run": compliance.by_run,
+        "residual_std_um": compliance.residual_std * UM,
+        "stiffness": None
+        if found.stiffness is None or found.stiffness_uncertainty is None
+        else {
+            "value_N_per_um": found.stiffness / UM,
+            "standard_uncertainty_N_per_um": found.stiffness_uncertainty / UM,
+        },
+        "symmetry": None
+        if symmetry is None
+        else {
+            "differences_um_per_N": symmetry.differences * UM,
+            "chi_squared": symmetry.chi_squared,
+            "probability": symmetry.probability,
+        },
+        "principal": [
+            {
+                "direction": one.direction,
+                "direction_uncertainty_rad": one.direction_uncertainty,
+                "compliance": _number(one.compliance, UM),
+            }
+            for one in found.principal
+        ],
+        "refusal": found.refusal,
+    }
+
+
+def _twist(run: TwistRun) -> dict[str, Any]:
+    scales = np.array([UM] * 3 + [_MICRO] * 3)
+    return {
+        "run": run.run,
+        "steps": [_step(step) for step in run.steps],
+        "compliance": [_number(one, float(scale)) for one, scale in zip(run.compliance, scales, strict=False)],
+        "degrees_of_freedom": run.twist.degrees_of_freedom,
+        "standard_deviation_um": run.twist.standard_deviation * UM,
+        "redundancy": run.twist.redundancy,
+        "outlying": run.twist.outlying,
+        "suspect": run.twist.suspect,
+    }
+
+
+def _step(step: LoadStep) -> dict[str, Any]:
+    return {
+        "force_N": step.force,
+        "readings": step.readings,
+        "translation_um": step.twist[:3] * UM,
+        "rotation_urad": step.twist[3:] * _MICRO,
+        "translation_uncertainty_um": step.standard_uncertainty[:3] * UM,
+        "rotation_uncertainty_urad": step.standard_uncertainty[3:] * _MICRO,
+    }

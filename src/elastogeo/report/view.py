@@ -1,0 +1,239 @@
+"""A view: all that a person is shown of a result, as strings, tables and pictures, made once.
+
+The screen, the page, the PDF and the JSON are renderings of the same view: none of them formats a number. The view of a kind
+of result is one function in a wing of this room, in a file named `view.py` or `*_view.py`::
+
+    @views(Identification)
+    def identification_view(result: Identification) -> View: ...
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from elastogeo.identification import Check
+from elastogeo.report.sentences import sentence_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """A check as it is said.
+
+    Attributes
+    ----------
+    name : str
+    passed : bool or None
+        None if it was not tested.
+    sentence : str
+    decisive : bool
+    """
+
+    name: str
+    passed: bool | None
+    sentence: str
+    decisive: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class KeyValue:
+    """One of the few numbers of the first screen: `C_XXX`, `61.92 ± 0.12`, `nm/N`, and what it is."""
+
+    name: str
+    value: str
+    unit: str = ""
+    meaning: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table, formatted.
+
+    Attributes
+    ----------
+    headings : tuple of str
+        With their units in brackets: `RMSE [µm]`.
+    rows : tuple of tuple of str
+    words : tuple of int
+        Columns that hold words, set to the left; all others are figures.
+    title : str
+    note : str
+        Below it.
+    strong : tuple of int
+        Rows that are set bold.
+    """
+
+    headings: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    words: tuple[int, ...] = (0,)
+    title: str = ""
+    note: str = ""
+    strong: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A figure that is drawn when a page needs it.
+
+    Attributes
+    ----------
+    name : str
+        Of its file.
+    caption : str
+    alternative : str
+        What it shows, for those who cannot see it.
+    draw : callable
+        Gives the matplotlib figure, under the house style.
+    """
+
+    name: str
+    caption: str
+    alternative: str
+    draw: Callable[[], Figure] = field(compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A part of the page below the first screen: a heading, paragraphs, pictures, tables, in this order."""
+
+    title: str
+    paragraphs: tuple[str, ...] = ()
+    pictures: tuple[Picture, ...] = ()
+    tables: tuple[Table, ...] = ()
+    points: tuple[str, ...] = ()
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """What a person is shown of a result.
+
+    Attributes
+    ----------
+    kind : str
+        In words: `Identification`, `Stiffness map`.
+    title, subtitle : str
+    origin : str
+        Empty for measured data; else what they are: simulated or reconstructed, and from what.
+    head : tuple of (label, text)
+        Who, when, machine, instrument, runs, file hashes.
+    sentence : str
+        The answer in one sentence.
+    values : tuple of KeyValue
+        Three to five.
+    picture : Picture or None
+        Of the first screen.
+    checks : tuple of Said
+    alert : tuple of str
+        What must be said before anything else; mostly nothing.
+    tables : tuple of Table
+        The answer in full: what the terminal shows below the sentence.
+    notes : tuple of str
+        What the terminal says below the tables.
+    sections : tuple of Section
+        All else, folded on the page.
+    document : mapping
+        As JSON: plain types, nothing rounded.
+    rows : sequence of mapping
+        Its main table, a row an entry, for a data frame.
+    """
+
+    kind: str
+    title: str
+    subtitle: str
+    origin: str
+    head: tuple[tuple[str, str], ...]
+    sentence: str
+    values: tuple[KeyValue, ...]
+    picture: Picture | None
+    checks: tuple[Said, ...]
+    document: Mapping[str, Any]
+    rows: Sequence[Mapping[str, Any]] = ()
+    alert: tuple[str, ...] = ()
+    tables: tuple[Table, ...] = ()
+    notes: tuple[str, ...] = ()
+    sections: tuple[Section, ...] = ()
+
+    @property
+    def attention(self) -> tuple[Said, ...]:
+        """The checks that failed, the decisive ones first, then those that were not tested."""
+        failed = [check for check in self.checks if check.passed is False]
+        untested = [check for check in self.checks if check.passed is None]
+        return (*sorted(failed, key=lambda check: not check.decisive), *untested)
+
+    @property
+    def passed(self) -> tuple[Said, ...]:
+        """The checks that passed."""
+        return tuple(check for check in self.checks if check.passed)
+
+    @property
+    def supported(self) -> bool:
+        """Whether the data support what was asked: no decisive check failed."""
+        return not any(check.decisive and check.passed is False for check in self.checks)
+
+    @property
+    def pictures(self) -> dict[str, Picture]:
+        """Every picture by name, the one of the first screen first."""
+        first = [] if self.picture is None else [self.picture]
+        return {p.name: p for p in (*first, *(p for section in self.sections for p in section.pictures))}
+
+
+T = TypeVar("T")
+_VIEWS: dict[type, Callable[[Any], View]] = {}
+
+
+def views(kind: type[T]) -> Callable[[Callable[[T], View]], Callable[[T], View]]:
+    """Register the function that makes the view of results of this type."""
+
+    def register(make: Callable[[T], View]) -> Callable[[T], View]:
+        _VIEWS[kind] = make
+        return make
+
+    return register
+
+
+def view_of(result: object) -> View:
+    """The view of a result of any kind.
+
+    Raises
+    ------
+    KeyError
+        If no wing makes a view of results of this type.
+    """
+    if type(result) not in _VIEWS:
+        for module in _view_files():
+            import_module(module)
+    return _VIEWS[type(result)](result)
+
+
+def said(checks: Iterable[Check]) -> tuple[Said, ...]:
+    """Checks as they are said."""
+    return tuple(Said(check.name, check.passed, sentence_of(check), check.decisive) for check in checks)
+
+
+def attention_sentence(checks: Iterable[Check]) -> str:
+    """How many checks need attention, and how many passed: the end of an answer's sentence."""
+    marks = [check.passed for check in checks]
+    failed, untested = marks.count(False), marks.count(None)
+    parts = [
+        "" if not failed else f"{failed} {'point needs' if failed == 1 else 'points need'} attention",
+        "" if not untested else f"{untested} could not be tested",
+        f"all {len(marks)} checks passed" if marks.count(True) == len(marks) else f"{marks.count(True)} checks passed",
+    ]
+    text = ", ".join(part for part in parts if part)
+    return f"{text[:1].upper()}{text[1:]}."
+
+
+def _view_files() -> Iterator[str]:
+    package = import_module(__name__.rpartition(".")[0])
+    for wing in iter_modules(package.__path__, f"{package.__name__}."):
+        if wing.ispkg:
+            for file in iter_modules(import_module(wing.name).__path__, f"{wing.name}."):
+                if file.name.endswith(("view", "_view")):
+                    yield file.name
