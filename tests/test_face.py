@@ -48,12 +48,10 @@ def test_a_name_that_is_not_of_the_face_says_which_are() -> None:
         eg.idntify  # noqa: B018
 
 
-def test_importing_elastogeo_takes_under_50_ms_and_nothing_heavy() -> None:
+def test_importing_elastogeo_imports_nothing_heavy() -> None:
     probe = "import sys, elastogeo; print(*sorted({name.partition('.')[0] for name in sys.modules}))"
-    done = subprocess.run([sys.executable, "-X", "importtime", "-c", probe], capture_output=True, text=True, check=True)
+    done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True)
     assert {"numpy", "scipy", "pydantic", "rich", "typer"} & set(done.stdout.split()) == set()
-    whole = next(line for line in done.stderr.splitlines() if line.endswith("| elastogeo"))
-    assert int(whole.split("|")[1]) < 50_000
 
 
 def test_two_lines_answer_on_one_screen() -> None:

@@ -81,7 +81,7 @@ def test_confounding_before_any_run_is_made(tmp_path, elastogeo):
     code, out, _ = elastogeo("confounding", tmp_path / "t", "--planned", "90")
     assert code == 0
     assert "Always together: C_XXX, C_XXY" in out
-    assert "No reading changes with 5" in out
+    assert "no reading of this test: nothing at all is known of them" in out
 
 
 def test_machines(elastogeo):
@@ -92,7 +92,7 @@ def test_machines(elastogeo):
     code, out, _ = elastogeo("machines", "hermle_c50")
     assert code == 0
     assert "Assumed: All link offsets" in out
-    assert [m["topology"] for m in json.loads(elastogeo("machines", "--json")[1])] == ["wCAFYXZSt", "wCAYFXZt"]
+    assert [m["topology"] for m in json.loads(elastogeo("machines", "--json")[1])["machines"]] == ["wCAFYXZSt", "wCAYFXZt"]
 
 
 def test_the_demo_writes_its_report_and_says_that_it_is_simulated(tmp_path, elastogeo):
@@ -101,7 +101,6 @@ def test_the_demo_writes_its_report_and_says_that_it_is_simulated(tmp_path, elas
     assert "Not measured: simulated from" in out
     assert str(tmp_path / "r" / "report.html") in out.replace("\n", "")
     names = {path.name for path in (tmp_path / "r").rglob("*.svg")}
-    assert names == {path.stem + ".svg" for path in (tmp_path / "r").rglob("*.png")}
     assert len(names) >= 5
 
 

@@ -10,15 +10,13 @@ import numpy as np
 import pytest
 
 import elastogeo
-from elastogeo.identification import compare, diagnose, what_if
-from elastogeo.report import (
-    comparison_json,
-    confounding_json,
-    diagnosis_json,
-    identification_json,
-    machine_json,
-    what_if_json,
-)
+from elastogeo.identification import Explanation, compare, diagnose, what_if
+from elastogeo.report.faults.comparison_document import comparison_json
+from elastogeo.report.faults.diagnosis_document import diagnosis_json
+from elastogeo.report.faults.what_if_document import what_if_json
+from elastogeo.report.identification.document import identification_json
+from elastogeo.report.identification.explanation_document import explanation_json
+from elastogeo.report.machines.document import machine_json
 
 KEYS = {
     "schema",
@@ -139,8 +137,8 @@ def test_a_number_that_is_none_is_null(rich) -> None:
 
 
 def test_confounding(rich) -> None:
-    document = confounding_json(rich.confounding, rich.test)
-    assert document["schema"] == "elastogeo.confounding/1"
+    document = explanation_json(Explanation(rich.test, rich.confounding))
+    assert document["schema"] == "elastogeo.explanation/1"
     assert document["retained"][0]["name"] == "C_XXX"
     assert set(document["retained"][0]["stands_for"]) == {"C_XXX", "C_XXY"}
     assert ["C_CCY"] in document["groups"]
@@ -209,7 +207,7 @@ def test_what_is_not_separated_says_so(mixed) -> None:
 
 def test_diagnosis(separated, mixed) -> None:
     diagnosis = diagnose(separated)
-    document = diagnosis_json(diagnosis, separated)
+    document = diagnosis_json(diagnosis)
     strict(document)
     assert document["schema"] == "elastogeo.diagnosis/1"
     first = document["faults"][0]
@@ -233,7 +231,7 @@ def test_diagnosis(separated, mixed) -> None:
     assert document["circularity"][0]["g_ccw_um"] == 1000 * diagnosis.circularity[36.0].g_ccw
     assert document["circularity"][0]["g_cw_um"] is None
     assert document["circularity"][0]["not_determined"]
-    untold = diagnosis_json(diagnose(mixed), mixed)["faults"]
+    untold = diagnosis_json(diagnose(mixed))["faults"]
     together = next(fault for fault in untold if "C_XXX" in fault["names"])
     assert together["names"] == ["C_XXX", "E_XX1"]
     assert together["separated"] is False
@@ -254,7 +252,7 @@ def test_comparison(separated) -> None:
 
 def test_what_if(separated) -> None:
     told = what_if(separated, ["C_XXX", "E_XX1"])
-    document = what_if_json(told, separated)
+    document = what_if_json(told)
     strict(document)
     assert document["schema"] == "elastogeo.what-if/1"
     assert [entry["name"] for entry in document["corrected"]] == ["C_XXX", "E_XX1"]

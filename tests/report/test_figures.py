@@ -11,50 +11,48 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from elastogeo.errors import InputError
 from elastogeo.identification import diagnose
-from elastogeo.report import MissingExtraError, figures, parameter_rows, save_figures
+from elastogeo.report import MissingExtraError, html_page, save_report, view_of
 from elastogeo.report.drawing.style import force_colours, nice_step, thinned
-from elastogeo.report.drawing.svg import inline_svg
+from elastogeo.report.drawing.svg import drawn as svg_of
+from elastogeo.report.drawing.svg import inline
+from elastogeo.report.text import parameter_rows
 
-ALWAYS = ["traces", "residuals", "contributions", "patterns"]
+ALWAYS = {"traces", "residuals", "contributions", "patterns"}
+
+
+def figure(result, name):
+    return view_of(result).pictures[name].draw()
+
+
+def names(result):
+    return set(view_of(result).pictures)
 
 
 def test_every_figure_that_there_is_something_for(rich, poor, geometric, separated, mixed) -> None:
-    assert list(figures(rich)) == [*ALWAYS, "local", "repeats"]
-    assert list(figures(poor)) == ALWAYS
-    assert list(figures(geometric)) == [*ALWAYS, "separation", "diagnosis", "local", "models"]
-    assert list(figures(separated)) == [*ALWAYS, "separation", "diagnosis", "local", "models", "budget", "repeats"]
-    assert list(figures(mixed)) == [*ALWAYS, "repeats"]
+    assert names(rich) == {*ALWAYS, "local", "repeats"}
+    assert names(poor) == ALWAYS
+    assert names(geometric) == {*ALWAYS, "separation", "local", "models"}
+    assert names(separated) == {*ALWAYS, "separation", "local", "models", "budget", "repeats"}
+    assert names(mixed) == {*ALWAYS, "repeats"}
+    assert "ranking" in names(diagnose(separated))
 
 
-def test_files_are_the_same_bytes_twice(rich, tmp_path) -> None:
-    one, two = save_figures(rich, tmp_path / "one"), save_figures(rich, tmp_path / "two")
-    assert len(one) == 12
-    for first, second in zip(one, two, strict=True):
-        assert first.name == second.name
-        assert first.read_bytes() == second.read_bytes(), first.name
-
-
-def test_files_are_what_their_names_say(poor, tmp_path) -> None:
-    for path in save_figures(poor, tmp_path):
-        data = path.read_bytes()
-        assert 3_000 < len(data) < 1_000_000, path.name
-        if path.suffix == ".svg":
+def test_files_are_the_same_bytes_twice_and_what_their_names_say(rich, tmp_path) -> None:
+    save_report(view_of(rich), tmp_path / "one")
+    save_report(view_of(rich), tmp_path / "two")
+    files = sorted(path.name for path in (tmp_path / "one").iterdir())
+    assert files == sorted([*(f"{name}.svg" for name in names(rich)), "report.html", "report.json", "report.pdf"])
+    for name in files:
+        data = (tmp_path / "one" / name).read_bytes()
+        assert data == (tmp_path / "two" / name).read_bytes(), name
+        if name.endswith(".svg"):
             assert ElementTree.fromstring(data).tag.endswith("svg")
             assert b"<dc:date>" not in data
-        else:
-            assert data.startswith(b"\x89PNG\r\n\x1a\n")
-
-
-def test_formats_are_chosen_and_unknown_ones_refused(poor, tmp_path) -> None:
-    assert {path.suffix for path in save_figures(poor, tmp_path, formats=["svg"])} == {".svg"}
-    with pytest.raises(InputError, match=r"cannot be saved as gif; the formats are svg, png"):
-        save_figures(poor, tmp_path, formats=["gif"])
 
 
 def test_the_magnification_and_the_division_are_stated(rich) -> None:
-    traces = figures(rich)["traces"]
+    traces = figure(rich, "traces")
     notes = [text.get_text() for text in traces.axes[0].texts]
     assert "one division = 10 µm; deviations are magnified 2000 times" in notes
     legend = [text.get_text() for text in traces.axes[0].get_legend().get_texts()]
@@ -62,7 +60,7 @@ def test_the_magnification_and_the_division_are_stated(rich) -> None:
 
 
 def test_traces_are_drawn_where_they_were_measured(poor) -> None:
-    trace, ax = poor.traces[0], figures(poor)["traces"].axes[0]
+    trace, ax = poor.traces[0], figure(poor, "traces").axes[0]
     magnification = float(re.search(r"magnified (\d+) times", ax.texts[-1].get_text())[1])
     drawn = next(line for line in ax.lines if len(line.get_xdata()) == 37 and line.get_linestyle() == "-")
     x, y = (np.asarray(data)[:-1] for data in drawn.get_data())
@@ -79,25 +77,24 @@ def bars_of(figure) -> list[tuple[float, float, float]]:
 
 
 def test_contributions_are_signed_and_ranked_with_their_intervals(rich) -> None:
-    drawn = bars_of(figures(rich)["contributions"])
+    drawn = bars_of(figure(rich, "contributions"))
     ranked = sorted(rich.parameters, key=lambda p: abs(p.peak_to_peak))
     for (length, low, high), p in zip(drawn, ranked, strict=True):
         assert length == pytest.approx(1000 * p.peak_to_peak)
         assert (high - low) / abs(length) == pytest.approx((p.interval[1] - p.interval[0]) / abs(p.value))
 
 
-def test_the_diagnosis_ranks_machine_faults_before_the_set_up(separated) -> None:
-    drawn = bars_of(figures(separated)["diagnosis"])[::-1]
-    faults = diagnose(separated).faults
+def test_the_ranking_holds_the_faults_of_the_machine_only(separated) -> None:
+    drawn = bars_of(figure(diagnose(separated), "ranking"))[::-1]
+    faults = [fault for fault in diagnose(separated).faults if fault.axis]
     assert [length for length, _, _ in drawn] == pytest.approx([1000 * fault.distortion for fault in faults])
-    assert [fault.axis for fault in faults[-2:]] == ["", ""]
     for (_, low, high), fault in zip(drawn, faults, strict=True):
         if len(fault.names) == 1:
             assert fault.significant == (not low <= 0 <= high)
 
 
 def test_separation_shows_the_parts_at_one_scale(separated) -> None:
-    axes = figures(separated)["separation"].axes
+    axes = figure(separated, "separation").axes
     titles = [ax.get_title().split("\n")[0] for ax in axes]
     assert titles == ["compliance and geometry", "compliance alone", "geometry alone"]
     spans = [float(re.search(r"([\d.]+) µm", ax.get_title())[1]) for ax in axes]
@@ -107,7 +104,7 @@ def test_separation_shows_the_parts_at_one_scale(separated) -> None:
 
 
 def test_budget_bars_fill_the_whole_variance(separated) -> None:
-    bars = figures(separated)["budget"].axes[0].patches
+    bars = figure(separated, "budget").axes[0].patches
     rows = {round(bar.get_y(), 6) for bar in bars}
     assert len(rows) == len(separated.parameters)
     for row in rows:
@@ -116,29 +113,28 @@ def test_budget_bars_fill_the_whole_variance(separated) -> None:
 
 def test_models_mark_the_supported_one_and_leave_out_what_is_not_known(separated) -> None:
     models = replace(separated.models, models=(replace(separated.models.models[0], left_out_level=None),))
-    ax = figures(replace(separated, models=models))["models"].axes[0]
+    ax = figure(replace(separated, models=models), "models").axes[0]
     assert [text.get_fontweight() for text in ax.get_yticklabels()] == ["bold"]
     assert [line.get_marker() for line in ax.lines if len(line.get_xdata()) == 1] == ["o", "D"]
 
 
 def test_where_nothing_is_told_apart_bars_and_patterns_carry_sums(mixed) -> None:
-    drawn = figures(mixed)
-    names = [text.get_text().replace("\n", " ") for text in drawn["contributions"].axes[0].get_yticklabels()]
-    assert sorted(names) == sorted(row.name for row in parameter_rows(mixed))
-    titles = [ax.get_title().replace("\n", " ") for ax in drawn["patterns"].axes]
+    labels = figure(mixed, "contributions").axes[0].get_yticklabels()
+    assert sorted(text.get_text().replace("\n", " ") for text in labels) == sorted(row.name for row in parameter_rows(mixed))
+    titles = [ax.get_title().replace("\n", " ") for ax in figure(mixed, "patterns").axes]
     assert "C_XXX or E_XX1" in titles
 
 
 def test_patterns_name_their_groups(rich) -> None:
-    axes = figures(rich)["patterns"].axes
+    axes = figure(rich, "patterns").axes
     assert len(axes) == 6
     assert axes[0].get_title() == "like C_XXY"
     assert axes[-1].get_title() == "C_CCY"
 
 
 def test_inline_figures_share_no_identifier_and_hold_no_address(rich) -> None:
-    drawn = figures(rich)
-    one, two = (inline_svg(drawn[name], name, "a figure") for name in ("local", "repeats"))
+    pictures = view_of(rich).pictures
+    one, two = (inline(svg_of(pictures[name]), pictures[name]) for name in ("local", "repeats"))
     for svg, name in ((one, "local"), (two, "repeats")):
         assert svg.startswith("<svg")
         assert "http" not in svg
@@ -180,8 +176,8 @@ def test_importing_the_room_draws_nothing() -> None:
 def test_without_matplotlib_it_says_what_to_install(poor, monkeypatch) -> None:
     for name in [name for name in sys.modules if name.partition(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
-    for room in ("style", "circles", "contributions", "traces", "patterns", "estimates", "separation", "uncertainties"):
-        monkeypatch.delitem(sys.modules, f"elastogeo.report.{room}", raising=False)
+    for module in [name for name in sys.modules if name.startswith("elastogeo.report.drawing.style")]:
+        monkeypatch.delitem(sys.modules, module)
 
     class Absent:
         @staticmethod
@@ -191,4 +187,4 @@ def test_without_matplotlib_it_says_what_to_install(poor, monkeypatch) -> None:
 
     monkeypatch.setattr(sys, "meta_path", [Absent, *sys.meta_path])
     with pytest.raises(MissingExtraError, match=r"needs matplotlib.*pip install 'elastogeo\[report\]'"):
-        figures(poor)
+        html_page(view_of(poor))

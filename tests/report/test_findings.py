@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from elastogeo.identification import compare, diagnose, what_if
-from elastogeo.report import comparison_rows, diagnosis_of, diagnosis_rows, parameter_rows, what_if_rows
-from elastogeo.report.text import UNTOLD
+from elastogeo.report.faults.rows import comparison_rows, diagnosis_rows, what_if_rows
+from elastogeo.report.text import UNTOLD, parameter_rows
 
 
 def test_a_sum_goes_under_no_single_name(mixed) -> None:
@@ -23,7 +23,7 @@ def test_a_sum_goes_under_no_single_name(mixed) -> None:
 
 
 def test_diagnosis_rows_are_ranked(separated) -> None:
-    rows = diagnosis_rows(diagnose(separated), separated)
+    rows = diagnosis_rows(diagnose(separated))
     ranks = [row.rank for row in rows]
     assert ranks == [*(str(k + 1) for k in range(len(rows) - 2)), "", ""]
     assert rows[0].axis in {"X", "Y"}
@@ -34,14 +34,8 @@ def test_diagnosis_rows_are_ranked(separated) -> None:
 
 
 def test_diagnosis_rows_of_what_is_not_told_apart_carry_sums(mixed) -> None:
-    names = {row.name for row in diagnosis_rows(diagnose(mixed), mixed)}
+    names = {row.name for row in diagnosis_rows(diagnose(mixed))}
     assert {row.name for row in parameter_rows(mixed)} == names
-    assert diagnosis_of(mixed) is None
-
-
-def test_a_diagnosis_needs_geometry(rich, geometric) -> None:
-    assert diagnosis_of(rich) is None
-    assert diagnosis_of(geometric) is not None
 
 
 def test_comparison_rows_say_what_changed(separated) -> None:

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from elastogeo.report import combination, display_unit, significant, value_with_uncertainty
+from elastogeo.report import display_unit, significant, value_with_uncertainty
+from elastogeo.report.text import combination
 
 
 @pytest.mark.parametrize(

@@ -32,7 +32,7 @@ _CAPTIONS = {
 def drive_view(result: DriveIdentification) -> View:
     """All that is shown of identified feed drives."""
     test = result.test
-    told = [axis for axis in result.axes if axis.parameters]
+    told = [axis for axis in result.axes if axis.fit is not None and axis.fit.separated]
     pictures = {name: _picture(name, result) for name in _CAPTIONS if name != "models" or any(a.models for a in told)}
     tables = tuple(table for axis in result.axes for table in _tables(axis))
     document = drive_json(result)
