@@ -105,6 +105,8 @@ def show_table(table: Table) -> None:
     for row in table.rows:
         shown.add_row(*(cell.replace("[", "\\[") for cell in row))
     _console.print(shown)
+    if table.note:
+        _console.print(table.note, markup=False, style="dim")
 
 
 def show_check(check: Said) -> None:

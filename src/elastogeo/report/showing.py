@@ -10,18 +10,23 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from elastogeo.identification import Parameter
+from elastogeo.identification import Check, Parameter
 from elastogeo.report.numbers import display_unit, value_with_uncertainty
 from elastogeo.report.page import save_report
+from elastogeo.report.sentences import sentence_of
 from elastogeo.report.text import label
 from elastogeo.report.view import Table, View, view_of
 from elastogeo.result import register
+
+_MARKS = {True: "  ok", False: "look", None: " n/t"}
 
 
 class _Renderer:
     """What `elastogeo.result.Renderer` asks for."""
 
-    def line(self, shown: Parameter) -> str:
+    def line(self, shown: Parameter | Check) -> str:
+        if isinstance(shown, Check):
+            return f"{_MARKS[shown.passed]}  {shown.name}: {sentence_of(shown)}"
         unit = display_unit(shown.unit, max(map(abs, shown.interval)))
         half = (shown.interval[1] - shown.interval[0]) / 2
         value = value_with_uncertainty(shown.value * unit.factor, half * unit.factor)
