@@ -1,24 +1,47 @@
-"""The head of every page about a test: what was tested, how, with what."""
+"""The head of every page about a test: who, when, which machine and instrument, how, with which files."""
 
 from __future__ import annotations
+
+from typing import Any
 
 from elastogeo.observe import MachineTest
 from elastogeo.report.document import instrument_name
 from elastogeo.report.text import in_micrometres
 
+_MINUTE = 60.0
+_HASH = 12
+"""Digits of a file's hash that are shown; the JSON has all."""
+
 
 def head(test: MachineTest) -> tuple[tuple[str, str], ...]:
-    """What was tested and how, as labelled lines."""
-    topology = test.machine.topology
+    """What was tested and how, as labelled lines; nothing is said of what is not known."""
+    topology, about = test.machine.topology, test.about
     readings = sum(len(next(iter(run.columns.values()))) for run in test.runs)
     reference = test.question.reference_force
+    files = {run.file: run.sha256 for run in test.runs if run.sha256}
     lines = [
         ("Machine", f"{test.machine.name}, {topology.compact} {topology.iso}"),
-        ("Instrument", instrument_name(test).replace("-", " ")),
+        ("Machine serial number", about.machine_serial),
+        ("Instrument", ", ".join(filter(None, (instrument_name(test).replace("-", " "), about.instrument)))),
+        ("Instrument serial number", about.instrument_serial),
+        ("Calibrated", about.instrument_calibrated),
+        ("Date", about.date),
+        ("Operator", about.operator),
+        ("Place", about.place),
+        ("Path", _path(test)),
         ("Runs", f"{len(test.runs)}, with {readings} readings"),
         ("Asked for", ", ".join(test.asked)),
+        ("Reference", "" if reference is None else f"the readings at {reference:g} N are subtracted"),
+        ("Resolution", "not stated" if test.resolution is None else f"{in_micrometres(test.resolution)} µm"),
+        ("Remarks", about.remarks),
+        ("Files (SHA-256)", ", ".join(f"{name} {digest[:_HASH]}" for name, digest in files.items())),
     ]
-    if reference is not None:
-        lines.append(("Reference", f"the readings at {reference:g} N are subtracted"))
-    resolution = "not stated" if test.resolution is None else f"{in_micrometres(test.resolution)} µm"
-    return (*lines, ("Resolution", resolution))
+    return tuple((label, text) for label, text in lines if text)
+
+
+def _path(test: MachineTest) -> str:
+    known: dict[str, Any] = {fact.name: fact.value for fact in test.setup.facts()}
+    if "plane" not in known:
+        return ""
+    plane = f"plane {known['plane']}" if isinstance(known["plane"], str) else "a tilted plane"
+    return f"circle, {plane}, radius {known['radius']:g} mm, {known['feed'] * _MINUTE:g} mm/min"
