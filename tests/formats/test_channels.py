@@ -7,7 +7,8 @@ import pytest
 
 from elastogeo.errors import FormatError, InputError
 from elastogeo.formats import channel_clock
-from elastogeo.formats.channels import ChannelUse, Clock, OnOneClock, on_one_clock
+from elastogeo.formats.channel_uses import ChannelUse, Clock
+from elastogeo.formats.channels import OnOneClock, on_one_clock
 from elastogeo.formats.log import Channel, Log
 
 
@@ -291,9 +292,9 @@ def test_a_channel_is_found_by_its_name_or_by_the_quantity_that_it_says() -> Non
         ([ChannelUse("q", "zzzz")], "has no channel 'zzzz'; it has Position X [mm], ENC_POS|1,"),
         ([ChannelUse("broken")], "x_mm, X [mm] (columns of numbers with something else among them, left out: broken_A)"),
         ([ChannelUse("x")], "'x' may be x_mm or X [mm]; write the channel's whole name"),
-        ([ChannelUse("position_x", "ENC_POS|1")], "channel 'ENC_POS|1': the file gives no unit; say it in the test file"),
-        ([ChannelUse("position_x", unit="um")], "the file says mm, the test says um; correct the test file"),
-        ([ChannelUse("position_x", unit="1")], "the file says mm, the test says 1; correct the test file"),
+        ([ChannelUse("position_x", "ENC_POS|1")], "channel 'ENC_POS|1': the file gives no unit; add unit = \"mm\""),
+        ([ChannelUse("position_x", unit="um")], "the file says mm, its [[channels]] says um; leave the unit out"),
+        ([ChannelUse("position_x", unit="1")], "the file says mm, its [[channels]] says 1; leave the unit out"),
         ([ChannelUse("current_x", "ENC_POS|1", "mm")], "column 'current_x' has the unit mm (length): write current_x_A"),
         ([ChannelUse("force_x", "ENC_POS|1", "1")], "column 'force_x' has no unit: write force_x_N"),
         ([ChannelUse("q", "x_mm"), ChannelUse("q", "X [mm]")], "'q' is taken from two channels"),
@@ -381,3 +382,65 @@ def test_without_uses_what_is_no_quantity_with_its_unit_is_not_taken() -> None:
     result = on_one_clock(log)
     assert list(result.table.columns) == ["time", "force_x"]
     assert told(result, "channels that do not say a quantity and its unit, not taken: a_N, CURRENT|1, State")
+
+
+@pytest.mark.parametrize(
+    ("quantity", "unit", "wanted"),
+    [
+        ("position_x", "deg", r"has the unit deg \(angle\): write position_x_mm or"),
+        ("position_c", "mm", r"has the unit mm \(length\): write position_c_rad or"),
+        ("velocity_z", "rpm", r"has the unit rpm \(angular rate\): write velocity_z_mm_s or"),
+        ("acceleration_a", "mm_s2", r"has the unit mm_s2 \(acceleration\): write acceleration_a_rad_s2 or"),
+    ],
+)
+def test_an_axis_takes_units_of_its_own_kind_only(quantity: str, unit: str, wanted: str) -> None:
+    with pytest.raises(FormatError, match=f"column '{quantity}' {wanted}"):
+        on_one_clock(log_of(channel(quantity, unit, NOISE[0], TIME)), (ChannelUse(quantity),))
+    named = log_of(channel(f"{quantity}_{unit}", unit, NOISE[0], TIME), channel("current_x_A", "A", NOISE[1], TIME))
+    assert told(on_one_clock(named), f"channels that do not say a quantity and its unit, not taken: {quantity}_{unit}")
+
+
+def test_percent_of_a_rated_value_becomes_that_value_or_stays_percent() -> None:
+    log = log_of(channel("LOAD", "", [50.0, -100.0], [0, 1]), channel("current_y_%", "%", [10.0, 20.0], [0, 1]))
+    uses = (ChannelUse("torque_x", "LOAD", "%", rated_torque=8000.0), ChannelUse("current_y"))
+    result = on_one_clock(log, uses)
+    assert result.table.column("torque_x").tolist() == [4000.0, -8000.0]
+    assert result.table.column("current_y").tolist() == [10.0, 20.0]
+    assert result.percent == ("current_y",)
+
+
+def test_a_rated_value_that_does_not_fit_is_refused() -> None:
+    with pytest.raises(InputError, match="torque_x has a rated current; give rated_torque"):
+        ChannelUse("torque_x", unit="%", rated_current=1.0)
+    with pytest.raises(InputError, match="rated_force of force_x is 0"):
+        ChannelUse("force_x", unit="%", rated_force=0.0)
+    log = log_of(channel("current_x_A", "A", [1.0, 2.0], [0, 1]))
+    with pytest.raises(FormatError, match="has a rated value, but is in A, not in %"):
+        on_one_clock(log, (ChannelUse("current_x", rated_current=5.0),))
+    with pytest.raises(FormatError, match=r"'position_x' has the unit % \(percent\)"):
+        on_one_clock(log_of(channel("a", "%", [1.0, 2.0], [0, 1])), (ChannelUse("position_x", "a"),))
+
+
+@pytest.mark.parametrize("code", [999999.0, -32768.0, 1e30, -9999.0])
+def test_a_code_for_a_missing_value_is_no_measurement(code: float) -> None:
+    values = NOISE[0].copy()
+    values[[100, *range(250, 350)]] = code
+    result = on_one_clock(log_of(channel("current_x_A", "A", values, TIME)))
+    assert np.abs(result.table.column("current_x")).max() < 10
+    assert told(result, f"current_x: {code:.9g} stands 101 times (first at sample 101): a code for a missing value")
+    assert told(result, "0.202 s after 5.498 s (left open)")
+
+
+def test_another_value_far_beyond_all_others_is_named_and_kept() -> None:
+    values = NOISE[0].copy()
+    values[100] = 4321.5
+    result = on_one_clock(log_of(channel("current_x_A", "A", values, TIME)))
+    assert result.table.column("current_x")[100] == 4321.5
+    assert told(result, "current_x: 4321.5 stands once (first at sample 101): far beyond all others, kept")
+
+
+@pytest.mark.parametrize("values", [NOISE[0] * 1e5, np.arange(500) * 9999.0, np.where(NOISE[0] > 2, 40.0, NOISE[0])])
+def test_values_that_belong_together_are_no_codes(values: np.ndarray) -> None:
+    result = on_one_clock(log_of(channel("current_x_A", "A", values, TIME)))
+    assert result.table.column("current_x").tobytes() == values.tobytes()
+    assert not told(result, "stands once") + told(result, " times (first")

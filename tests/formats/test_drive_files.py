@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from elastogeo.drive import identify_balance
+from elastogeo.drive import TorqueModel, identify_balance
 from elastogeo.errors import FormatError, InputError
 from elastogeo.formats.documents.feed_drives import read_drives
+from elastogeo.formats.recording_files import PartHead, RecordedChannel, Samples, encode_part, part_name
 
 STEP = 0.002
 
@@ -215,3 +216,68 @@ def test_the_sense_of_a_motor_counts_without_its_constant_too(tmp_path: Path) ->
     (turned,) = read_drives([drive_file(tmp_path, 'logs = ["a.csv"]\n[[drives]]\naxis = "X"\nsense = -1\n')]).records
     assert turned.effort_unit == "A"
     assert_allclose(turned.effort, -plain.effort)
+
+
+def test_percent_of_rated_torque_gives_percent_or_with_the_rated_torque_newton_millimetres(tmp_path: Path) -> None:
+    m = motion()
+    for k in range(2):
+        load = 100 * (0.02 * m["velocity_x_mm_s"] / 50 + 0.1)
+        write(tmp_path / f"run_{k}.csv", {**{name: m[name] for name in m}, "LOAD|X": load})
+    text = 'logs = ["run_*.csv"]\n[[channels]]\nquantity = "torque_x"\nchannel = "LOAD|X"\nunit = "%"\n'
+    motions = "".join(f'[[channels]]\nquantity = "{kind}_x"\n' for kind in ("position", "velocity", "acceleration"))
+    fit = identify_balance(read_drives([drive_file(tmp_path, text + motions)]).of("X"))
+    assert fit.effort_unit == "%"
+    assert fit.determined["viscous"] == pytest.approx(0.04)
+    rated = text + "rated_torque_N_m = 25\n" + motions
+    fit = identify_balance(read_drives([drive_file(tmp_path, rated)]).of("X"))
+    assert fit.effort_unit == "N mm"
+    assert fit.determined["viscous"] == pytest.approx(0.04 / 100 * 25_000)
+
+
+def test_a_current_in_percent_and_a_motor_constant_ask_for_the_rated_current(tmp_path: Path) -> None:
+    log(tmp_path / "run.csv", "position", "velocity", "acceleration")
+    text = (tmp_path / "run.csv").read_text(encoding="utf-8").replace("current_x_A", "current_x [%]")
+    (tmp_path / "run.csv").write_text(text, encoding="utf-8")
+    drives = '[[drives]]\naxis = "X"\ntorque_constant_N_m_per_A = 1.5\npitch_mm = 10\n'
+    with pytest.raises(FormatError, match=r"current_x is in % of a rated current.*write rated_current_A"):
+        read_drives([drive_file(tmp_path, f'logs = ["run.csv"]\n{drives}')])
+
+
+def recording(folder: Path, parts: int = 3) -> Path:
+    """A recording of the simulated axis, in parts as the recorder writes them."""
+    m = motion()
+    values = [m["position_x_mm"], 0.004 * m["acceleration_x_mm_s2"] + 0.02 * m["velocity_x_mm_s"] + 0.3]
+    channels = tuple(
+        RecordedChannel(name, unit, f"ns=2;s={name}", 0, None) for name, unit in (("position_x", "mm"), ("current_x", "A"))
+    )
+    folder.mkdir()
+    for number, rows in enumerate(np.array_split(np.arange(len(m["time_s"])), parts), 1):
+        count = len(rows)
+        samples = Samples(
+            np.repeat(np.arange(2, dtype=np.int32), count),
+            np.tile(np.rint(m["time_s"][rows] * 1e9).astype(np.int64) + 10**18, 2),
+            np.concatenate([one[rows] for one in values]),
+            np.zeros(2 * count, dtype=np.uint32),
+            np.zeros(2 * count, dtype=np.bool_),
+        )
+        (folder / part_name(number)).write_bytes(encode_part(PartHead("opc.tcp://machine", channels), samples))
+    return folder
+
+
+def test_a_recording_is_one_run_with_the_names_that_the_recorder_teaches(tmp_path: Path) -> None:
+    folder = recording(tmp_path / "monday")
+    test = read_drives(folder)
+    assert test.runs == ("monday",)
+    fit = identify_balance(test.of("X"), TorqueModel(("inertia", "viscous", "constant")))
+    assert fit.determined == pytest.approx({"inertia": 0.004, "viscous": 0.02, "constant": 0.3}, rel=0.02)
+    in_parts = read_drives(sorted(folder.iterdir()))
+    assert in_parts.runs == ("monday",)
+    assert_allclose(in_parts.records[0].effort, test.records[0].effort)
+    assert len(read_drives(sorted(folder.iterdir())[:2]).records[0].time) < 0.7 * len(test.records[0].time)
+    by_file = read_drives(drive_file(tmp_path, 'logs = ["monday"]\n[model]\nleast_speed_mm_s = 1\n'))
+    assert by_file.runs == ("monday",)
+
+
+def test_a_folder_that_is_neither_says_so(tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match=r"holds no drive\.toml and no parts of a recording; name the logs themselves"):
+        read_drives(tmp_path)

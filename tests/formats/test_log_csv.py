@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from elastogeo.errors import FormatError
-from elastogeo.formats.channels import ChannelUse, Clock, on_one_clock
+from elastogeo.formats.channel_uses import ChannelUse, Clock
+from elastogeo.formats.channels import on_one_clock
 from elastogeo.formats.log import Log
 from elastogeo.formats.logs.csv import can_read, read_csv_log
 
@@ -58,7 +59,7 @@ def test_every_spelling_reads_the_same(text: str, encoding: str) -> None:
 UNIT_LINES = {
     "plain": "time,position_x,current_x\nms,mm,A\n0,1.5,0.25\n2,-2.5,0.5\n",
     "brackets": "time;position_x;current_x\n[ms];[mm];[A]\n0;1.5;0.25\n2;-2.5;0.5\n",
-    "one unknown, a blank line": "time|position_x|current_x|load\n\nms|mm|A|%\n0|1.5|0.25|3\n2|-2.5|0.5|3\n",
+    "one unknown, a blank line": "time|position_x|current_x|load\n\nms|mm|A|gal\n0|1.5|0.25|3\n2|-2.5|0.5|3\n",
 }
 
 
@@ -72,7 +73,7 @@ def test_units_may_stand_in_a_line_of_their_own(text: str) -> None:
     ]
     assert channels[0].time is not None
     assert channels[0].time.tolist() == [0.0, 0.002]
-    assert log.notes == (("the unit '%' of column load is not known: its channel has none",) if "load" in text else ())
+    assert log.notes == (("the unit 'gal' of column load is not known: its channel has none",) if "load" in text else ())
 
 
 def test_a_line_of_text_is_no_line_of_units() -> None:
@@ -122,16 +123,18 @@ def test_units_are_those_of_the_headers() -> None:
         "X1_ActualVelocity",
         "Position X [mm]",
         "load (%)",
+        "current_y_%",
+        "oil (gal)",
         "position_A",
         "S1_OutputPower [kW]",
         "Moment [N m]",
         "n_rpm",
     ]
-    log = read(",".join(headers) + "\n" + ",".join("1234567") + "\n")
-    assert [c.unit for c in log.channels.values()] == ["", "mm", "", "", "", "N m", "rpm"]
+    log = read(",".join(headers) + "\n" + ",".join("123456789") + "\n")
+    assert [c.unit for c in log.channels.values()] == ["", "mm", "%", "%", "", "", "", "N m", "rpm"]
     assert list(log.channels) == headers
     assert log.notes == (
-        "the unit '%' of column load (%) is not known: its channel has none",
+        "the unit 'gal' of column oil (gal) is not known: its channel has none",
         "the unit 'kW' of column S1_OutputPower [kW] is not known: its channel has none",
     )
 

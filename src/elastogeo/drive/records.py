@@ -12,8 +12,9 @@ from elastogeo.drive.differentiator import JUMP
 from elastogeo.errors import InputError
 from elastogeo.machine import ROTARY, Array
 
-EFFORT_UNITS = ("A", "N mm", "N")
-"""What an effort may be in: the motor's current if its constant is not known, its torque, the force of a linear motor."""
+EFFORT_UNITS = ("A", "N mm", "N", "%")
+"""What an effort may be in: the motor's current if its constant is not known, its torque, the force of a linear motor,
+or percent of a rated value that is not known."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

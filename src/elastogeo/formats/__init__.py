@@ -3,7 +3,8 @@
 Stands on `sources`, `observe`, `machine` and `errors`.
 """
 
-from elastogeo.formats.channels import ChannelUse, Clock, OnOneClock, on_one_clock
+from elastogeo.formats.channel_uses import ChannelUse, Clock
+from elastogeo.formats.channels import OnOneClock, on_one_clock
 from elastogeo.formats.documents.calibrations import (
     CalibrationDocument,
     DeflectionDocument,

@@ -37,6 +37,8 @@ class Track:
         The median step of the clock.
     angle : bool
         Whether the values are angles.
+    percent : bool
+        Whether they are percent of a rated value that nobody gave.
     """
 
     quantity: str
@@ -45,6 +47,7 @@ class Track:
     values: Array
     step: float
     angle: bool
+    percent: bool = False
 
 
 def unwrapped(track: Track, report: list[str]) -> Track:

@@ -16,11 +16,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
-from math import isfinite
 
 import numpy as np
 
-from elastogeo.errors import FormatError, InputError
+from elastogeo.errors import FormatError
 from elastogeo.formats.channel_clock import (
     SAME,
     Track,
@@ -32,70 +31,17 @@ from elastogeo.formats.channel_clock import (
     on_values,
     unwrapped,
 )
+from elastogeo.formats.channel_uses import ChannelUse, Clock
 from elastogeo.formats.log import Channel, Log
+from elastogeo.formats.spikes import sentences, spikes
 from elastogeo.formats.text.table import Table
-from elastogeo.formats.text.units import UNITS, check_unit, spellings, split_unit, to_internal
-from elastogeo.machine import Array, Time
+from elastogeo.formats.text.units import PERCENT, UNITS, check_unit, is_rated, split_unit, to_internal
+from elastogeo.machine import Array
 
 GAP = 3.0
 """The longest gap that is bridged, in sample times; why: see above."""
 
 _SHOWN = 15
-
-
-@dataclass(frozen=True, slots=True)
-class ChannelUse:
-    """What one channel of a log stands for: an entry of the table `channels` of a test file.
-
-    Attributes
-    ----------
-    quantity : str
-        `current_x`, `position_x`, `velocity_x`, `force_x`, ...; `time` for the channel that is the clock of a file whose
-        channels have none.
-    channel : str
-        Its name in the file; empty for the channel whose name says this quantity.
-    unit : str
-        Of its values, in a spelling of `units.UNITS`, where the file says none; `1` for a number without a unit.
-    delay : float [s]
-        By which its samples are late against those of the others; it is taken off its clock.
-    """
-
-    quantity: str
-    channel: str = ""
-    unit: str = ""
-    delay: Time = 0.0
-
-    def __post_init__(self) -> None:
-        """Refuse a quantity without a name, a unit that is none, a delay that is no number."""
-        if not self.quantity or self.quantity != self.quantity.strip():
-            raise InputError(f"the quantity {self.quantity!r} is no name; write for example current_x")
-        if self.unit not in ("", "1") and self.unit not in UNITS:
-            raise InputError(f"the unit {self.unit[:40]!r} of {self.quantity} is not known: use {spellings()}")
-        if not isfinite(self.delay):
-            raise InputError(f"the delay of {self.quantity} is {self.delay}; write a number of seconds")
-
-
-@dataclass(frozen=True, slots=True)
-class Clock:
-    """The clock that the channels of a log are put on: the table `clock` of a test file.
-
-    Attributes
-    ----------
-    sample_time : float or None [s]
-        Of the common clock, and of a file that keeps none; by default that of the slowest channel chosen.
-    longest_gap : float or None [s]
-        The longest gap that is bridged by a straight line; by default `GAP` sample times.
-    """
-
-    sample_time: Time | None = None
-    longest_gap: Time | None = None
-
-    def __post_init__(self) -> None:
-        """Refuse times that are not above zero."""
-        for name in ("sample_time", "longest_gap"):
-            value = getattr(self, name)
-            if value is not None and not (isfinite(value) and value > 0):
-                raise InputError(f"{name} is {value} s; it must be above zero")
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,11 +57,14 @@ class OnOneClock:
         The sample time; `time` advances by it, and by more where samples were left out.
     report : tuple of str
         What was found and done, in sentences.
+    percent : tuple of str
+        Quantities whose column is in percent of a rated value that nobody gave.
     """
 
     table: Table
     step: float
     report: tuple[str, ...]
+    percent: tuple[str, ...] = ()
 
 
 _AS_RECORDED = Clock()
@@ -160,7 +109,7 @@ def on_one_clock(
     if not kept.any():
         raise FormatError(
             f"{log.source}: at no moment do all of {', '.join(t.quantity for t in tracks)} have a sample within "
-            f"{bridged:.4g} s; take fewer channels, or allow a longer gap in the test file: [clock] longest_gap_s"
+            f"{bridged:.4g} s; take fewer channels, or allow a longer gap in test.toml or drive.toml: [clock] longest_gap_s"
         )
     report += on_rates(tracks) + on_gaps(tracks, bridged)
     report += on_values(tracks, [one.recorded[kept] for one in found], step, int((~kept).sum()))
@@ -169,7 +118,8 @@ def on_one_clock(
         report.append(f"the time of the table begins at zero, which is {time[0]:.9g} s on the clock of the file")
     columns = {track.quantity: one.values[kept] for track, one in zip(tracks, found, strict=True)}
     metadata = {**log.metadata, "clock": "\n".join(report)}
-    return OnOneClock(Table({"time": time - time[0], **columns}, metadata, log.source), step, tuple(report))
+    percent = tuple(track.quantity for track in tracks if track.percent)
+    return OnOneClock(Table({"time": time - time[0], **columns}, metadata, log.source), step, tuple(report), percent)
 
 
 def _chosen(log: Log, uses: Sequence[ChannelUse], report: list[str]) -> list[tuple[ChannelUse, Channel]]:
@@ -188,7 +138,7 @@ def _told(log: Log, report: list[str]) -> list[ChannelUse]:
     for channel in log.channels.values():
         quantity = _quantity(channel)
         try:
-            check_unit(quantity, channel.unit)
+            check_unit(quantity, channel.unit, percent=True)
         except FormatError:
             quantity = ""
         if quantity and channel.unit:
@@ -197,8 +147,8 @@ def _told(log: Log, report: list[str]) -> list[ChannelUse]:
             left_out.append(channel.name)
     if not uses:
         raise FormatError(
-            f"{log.source}: no channel says what it is and its unit, as current_x_A does; say it in the test "
-            f'file for each: [[channels]] quantity = "current_x", channel = "{next(iter(log.channels))}", unit = "A". '
+            f"{log.source}: no channel says what it is and its unit, as current_x_A does; say it in test.toml or "
+            f'drive.toml for each: [[channels]] quantity = "current_x", channel = "{next(iter(log.channels))}", unit = "A". '
             f"The channels are {_listed(left_out)}"
         )
     if left_out:
@@ -227,15 +177,17 @@ def _find(log: Log, use: ChannelUse) -> Channel:
 def _with_unit(use: ChannelUse, channel: Channel, source: str) -> tuple[ChannelUse, Channel]:
     where = f"{source}, channel {channel.name!r}"
     if use.unit and channel.unit and UNITS.get(use.unit) != UNITS[channel.unit]:
-        raise FormatError(f"{where}: the file says {channel.unit}, the test says {use.unit}; correct the test file")
+        raise FormatError(f"{where}: the file says {channel.unit}, its [[channels]] says {use.unit}; leave the unit out")
     unit = channel.unit or use.unit
     if not unit:
-        raise FormatError(f'{where}: the file gives no unit; say it in the test file, as unit = "mm" (or "1" for none)')
+        raise FormatError(f'{where}: the file gives no unit; add unit = "mm" (or "1" for none) to its [[channels]]')
     unit = "" if unit == "1" else unit
     try:
-        check_unit(use.quantity, unit)
+        check_unit(use.quantity, unit, percent=True)
     except FormatError as error:
         raise FormatError(f"{where}: {error}") from None
+    if use.rated is not None and unit != "%":
+        raise FormatError(f"{where}: has a rated value, but is in {unit}, not in %; leave the rated value out")
     return replace(use, unit=unit), channel
 
 
@@ -273,7 +225,9 @@ def _tracks(log: Log, uses: Sequence[ChannelUse], clock: Clock, report: list[str
         moments = channel.time
         if moments is None:
             moments = _made(len(channel.values), own, _counts(log), clock, where)
-        values = to_internal(channel.values, use.unit)
+        strange = spikes(channel.values)
+        report += sentences(use.quantity, channel.values, strange)
+        values = to_internal(np.where(strange.code, np.nan, channel.values), use.unit)
         there = np.isfinite(values) & np.isfinite(moments)
         if there.sum() < 2:
             raise FormatError(
@@ -289,9 +243,13 @@ def _tracks(log: Log, uses: Sequence[ChannelUse], clock: Clock, report: list[str
             raise FormatError(
                 f"{where}: its time does not go forward at sample {int(np.argmax(steps <= 0)) + 2}; put it in order"
             )
-        angle = use.unit != "" and UNITS[use.unit].dimension == "angle"
+        dimension = UNITS[use.unit].dimension if use.unit else ""
+        percent = dimension == PERCENT and use.rated is None and is_rated(use.quantity)
+        if use.rated is not None:
+            values = values * use.rated / 100
         step = float(np.median(steps))
-        tracks.append(Track(use.quantity, ticks, moments[there] - use.delay, values[there], step, angle))
+        clock_of = moments[there] - use.delay
+        tracks.append(Track(use.quantity, ticks, clock_of, values[there], step, dimension == "angle", percent))
     return tracks
 
 
@@ -311,7 +269,7 @@ def _made(count: int, own: Array | None, counts: Array | None, clock: Clock, whe
         return own
     if clock.sample_time is None:
         raise FormatError(
-            f"{where}: the file keeps no clock; say the sample time in the test file: [clock] sample_time_ms = 2"
+            f"{where}: the file keeps no clock; say the sample time in test.toml or drive.toml: [clock] sample_time_ms = 2"
         )
     if counts is not None and len(counts) == count:
         return counts * clock.sample_time

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from elastogeo.errors import FormatError
-from elastogeo.formats.text.units import QUANTITIES, UNITS, dimensions_of, split_unit
+from elastogeo.formats.text.units import QUANTITIES, UNITS, dimensions_of, is_rated, split_unit
 
 _WORDS = {
     "time": "time timestamp zeit zeitstempel uhrzeit temps tempo tiempo",
@@ -69,4 +69,5 @@ def _said(name: str, unit: str) -> str:
 
 def _allowed(quantity: str, unit: str) -> bool:
     expected = dimensions_of(quantity)
-    return not unit or unit not in UNITS or not expected or UNITS[unit].dimension in expected
+    fits = unit not in UNITS or not expected or UNITS[unit].dimension in expected
+    return not unit or fits or (unit == "%" and is_rated(quantity))

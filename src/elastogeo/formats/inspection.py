@@ -230,7 +230,7 @@ def _quantity(channel: Channel) -> str:
     """The quantity that a channel's name and unit say without doubt."""
     try:
         quantity, unit = split_unit(channel.name)
-        check_unit(quantity, unit or channel.unit)
+        check_unit(quantity, unit or channel.unit, percent=True)
     except (FormatError, InputError):
         return ""
     known = quantity in QUANTITIES or dimensions_of(quantity)

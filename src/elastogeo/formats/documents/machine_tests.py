@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 
 from elastogeo.errors import FormatError, InputError
-from elastogeo.formats.channels import ChannelUse, Clock, on_one_clock
+from elastogeo.formats.channel_uses import ChannelUse, Clock
+from elastogeo.formats.channels import on_one_clock
 from elastogeo.formats.documents.calibrations import with_calibration
+from elastogeo.formats.documents.drive_logs import is_recording
 from elastogeo.formats.documents.machines import find_machine
 from elastogeo.formats.log_files import log_formats, read_log
 from elastogeo.formats.run_files import read_run, run_formats
@@ -136,6 +138,11 @@ def read_test_document(path: Path) -> tuple[Path, TestDocument]:
         If it is not what it must be, or names no run.
     """
     file = path / FILE_NAME if path.is_dir() else path
+    if is_recording(path) and not file.exists():
+        raise FormatError(
+            f"{path}: is a recording; name it in the {FILE_NAME} of a folder beside it: [[runs]] with "
+            f'file = "../{path.name}"'
+        )
     table = read_document(file)
     check_schema(table, SCHEMA, str(file))
     document = build(TestDocument, table, str(file))
@@ -165,9 +172,15 @@ def _table(document: TestDocument, entry: RunDocument, folder: Path, read: ReadR
     if read is not None:
         return read(path)
     asked = bool(document.channels) or document.clock != Clock() or entry.start is not None or entry.end is not None
-    if not asked and not _is_only_log(path):
+    if not asked and not path.is_dir() and not _is_only_log(path):
         return read_run(path)
-    return on_one_clock(read_log(path), document.channels, document.clock, entry.start, entry.end).table
+    found = on_one_clock(read_log(path), document.channels, document.clock, entry.start, entry.end)
+    if found.percent:
+        name, kind = found.percent[0], found.percent[0].partition("_")[0]
+        raise FormatError(
+            f"{path}: {name} is in % of a rated value; say it under [[channels]], as rated_{kind}, with its unit"
+        )
+    return found.table
 
 
 def _is_only_log(path: Path) -> bool:

@@ -317,7 +317,7 @@ def _unit_of(header: str) -> tuple[str, str]:
     try:
         quantity, unit = split_unit(header)
         if unit:
-            check_unit(quantity, unit)
+            check_unit(quantity, unit, percent=True)
     except FormatError:
         bracketed = re.search(r"[\[(]([^\[\]()]{1,20})[\])]\s*$", header)
         return "", bracketed[1] if bracketed else ""

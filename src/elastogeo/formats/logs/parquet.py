@@ -72,7 +72,7 @@ def read_parquet_log(data: bytes, source: str) -> Log:
         raise damaged(source, error) from None
 
 
-def read_recording(folder: str | Path) -> Log:
+def read_recording(folder: str | Path, only: Sequence[Path] = ()) -> Log:
     """Read the folder of a recording as one log.
 
     Samples are put in the order of their time; one that is there twice is taken once. What was missed stands in the notes.
@@ -80,6 +80,8 @@ def read_recording(folder: str | Path) -> Log:
     Parameters
     ----------
     folder : str or Path
+    only : sequence of Path
+        The parts to read; all by default.
 
     Raises
     ------
@@ -90,6 +92,12 @@ def read_recording(folder: str | Path) -> Log:
     files = part_files(folder)
     if not files:
         raise FormatError(f"{folder}: holds no part of a recording (part-000001.parquet, ...); check the path")
+    if only:
+        wanted = {path.name for path in only}
+        files = {number: path for number, path in files.items() if path.name in wanted}
+        if len(files) < len(wanted):
+            missing_part = sorted(wanted - {path.name for path in files.values()})[0]
+            raise FormatError(f"{folder}: has no part {missing_part}; check its name")
     parts, notes, rows = [], [], 0
     for path in files.values():
         try:
@@ -105,7 +113,7 @@ def read_recording(folder: str | Path) -> Log:
         rows += len(part.time)
         if rows > MAX_SAMPLES:
             raise FormatError(f"{folder}: holds more than {MAX_SAMPLES} samples; read fewer parts at a time")
-    missing = sorted(set(range(1, max(files))) - set(files))
+    missing = sorted(set(range(1, max(files))) - set(files)) if not only else []
     if missing:
         notes.append(f"{len(missing)} parts are not there any more (the first: {missing[0]}); their samples are missing")
     return _merged(parts, str(folder), notes)
@@ -334,7 +342,7 @@ def _unit(header: str, notes: list[str]) -> str:
     """The unit that a header says; empty if it says none, or one that its quantity cannot have."""
     try:
         quantity, unit = split_unit(header)
-        check_unit(quantity, unit)
+        check_unit(quantity, unit, percent=True)
     except FormatError:
         if any(bracket in header for bracket in "[("):
             notes.append(f"the unit of column {header} is not known: its channel has none")

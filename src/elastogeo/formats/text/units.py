@@ -1,7 +1,7 @@
 """Units at the boundary: one table of spellings, each with its dimension and its factor to the internal unit.
 
 Inside, all is mm, rad, N, N mm, s, mm/s and what follows from them (inertia in N mm s^2, mass in N s^2/mm); pressure is
-in bar, current in A, voltage in V, temperature in degC.
+in bar, current in A, voltage in V, temperature in degC. Percent of a rated value stay percent.
 A factor is a ratio of two exact numbers, so that 35 um becomes the double nearest to 0.035 mm. Nothing is rounded.
 """
 
@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from elastogeo.errors import FormatError
-from elastogeo.machine import Array
+from elastogeo.machine import LINEAR, ROTARY, Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +36,9 @@ class Unit:
     multiply: float = 1.0
     divide: float = 1.0
 
+
+PERCENT = "percent"
+"""Dimension of a current, torque or force that a drive gives as a share of its rated value."""
 
 _MICROMETRE, _DEGREE, _CELSIUS = Unit("length", 1, 1e3), Unit("angle", pi, 180), Unit("temperature")
 _MM_S, _MM_MIN, _M_MIN = Unit("feed"), Unit("feed", 1, 60), Unit("feed", 1e3, 60)
@@ -90,6 +93,12 @@ UNITS: Mapping[str, Unit] = MappingProxyType(
         "m/s^2": _M_S2,
         "rad_s": _RAD_S,
         "rad/s": _RAD_S,
+        "rad_s2": Unit("angular acceleration"),
+        "rad/s2": Unit("angular acceleration"),
+        "rad/s^2": Unit("angular acceleration"),
+        "deg_s2": Unit("angular acceleration", pi, 180),
+        "deg/s2": Unit("angular acceleration", pi, 180),
+        "deg/s^2": Unit("angular acceleration", pi, 180),
         "deg_s": Unit("angular rate", pi, 180),
         "deg/s": Unit("angular rate", pi, 180),
         "rpm": _RPM,
@@ -107,6 +116,7 @@ UNITS: Mapping[str, Unit] = MappingProxyType(
         "C": _CELSIUS,
         "degC": _CELSIUS,
         "°C": _CELSIUS,
+        "%": Unit(PERCENT),
     }
 )
 
@@ -124,12 +134,20 @@ QUANTITIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         **dict.fromkeys(("position", "command", "scale", "reading", "deviation", "error"), _POSITION),
         **dict.fromkeys(("angle", "a", "b", "c"), ("angle",)),
         "velocity": _VELOCITY,
-        "acceleration": ("acceleration",),
+        "acceleration": ("acceleration", "angular acceleration"),
         **dict.fromkeys(("moment", "torque"), ("moment",)),
         **{name: (name,) for name in ("force", "pressure", "time", "feed", "current", "voltage", "temperature")},
     }
 )
 
+_LINEAR_AXIS = {"position": "length", "command": "length", "velocity": "feed", "acceleration": "acceleration"}
+_ROTARY_AXIS = {
+    "position": "angle",
+    "command": "angle",
+    "velocity": "angular rate",
+    "acceleration": "angular acceleration",
+}
+_RATED = ("current", "torque", "force")
 _BRACKETED = re.compile(r"(?P<name>[^\[(]+)[\[(](?P<unit>[^\[\]()]*)[\])]")
 _NUMBERED = re.compile(r"_[xyzabcuvw]|_?\d{1,3}")
 
@@ -166,8 +184,14 @@ def split_unit(header: str) -> tuple[str, str]:
     return quantity, unit
 
 
-def check_unit(quantity: str, unit: str) -> None:
+def check_unit(quantity: str, unit: str, *, percent: bool = False) -> None:
     """Check that a quantity of the field comes with a unit, and with one of its own dimension.
+
+    Parameters
+    ----------
+    quantity, unit : str
+    percent : bool
+        Whether a current, torque or force may be given in percent of its rated value.
 
     Raises
     ------
@@ -175,7 +199,7 @@ def check_unit(quantity: str, unit: str) -> None:
         If `quantity` (such as `force`, `force_x`, `force2`) has no unit, or one of another dimension.
     """
     expected = dimensions_of(quantity)
-    if not expected or (unit and UNITS[unit].dimension in expected):
+    if not expected or (unit and UNITS[unit].dimension in expected) or (percent and unit == "%" and is_rated(quantity)):
         return
     known = " or ".join(f"{quantity}_{spelling}" for spelling in _of(expected) if spelling.isascii())
     arrived = f"has the unit {unit} ({UNITS[unit].dimension})" if unit else "has no unit"
@@ -183,8 +207,21 @@ def check_unit(quantity: str, unit: str) -> None:
 
 
 def dimensions_of(quantity: str) -> tuple[str, ...]:
-    """The dimensions that a quantity (`force`, `force_x`, `force2`) may have; none for one that may have any."""
+    """The dimensions that a quantity (`force`, `force_x`, `force2`) may have; none for one that may have any.
+
+    The position, command, velocity and acceleration of a linear axis (`position_x`) are lengths, those of a rotary axis
+    (`position_c`) angles (ISO 841).
+    """
+    kind, _, axis = quantity.rpartition("_")
+    of_axis = _LINEAR_AXIS if axis.upper() in LINEAR else _ROTARY_AXIS if axis.upper() in ROTARY else {}
+    if kind in of_axis:
+        return (of_axis[kind],)
     return next((dimensions for name, dimensions in QUANTITIES.items() if _is_named(quantity, name)), ())
+
+
+def is_rated(quantity: str) -> bool:
+    """Whether a drive may give a quantity (`current_x`) in percent of its rated value."""
+    return any(_is_named(quantity, name) for name in _RATED)
 
 
 def to_internal(values: ArrayLike, unit: str) -> Array:
