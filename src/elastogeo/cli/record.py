@@ -55,7 +55,7 @@ def record(
 
     \b
     Example:
-      elastogeo record opc.tcp://machine:4840 -n "current_x[A]=ns=2;s=Axis.X.Current" -n "position_x[mm]=ns=2;s=Axis.X.Position" -o monday
+      elastogeo record opc.tcp://mill:4840 -n "current_x[A]=ns=2;s=X.Current" -n "position_x[mm]=ns=2;s=X.Pos" -o monday
       elastogeo record recording.toml -o monday --duration 3600
     """
     from elastogeo.cli import screen
