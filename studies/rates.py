@@ -23,6 +23,7 @@ from elastogeo.errors import ElastogeoError
 from elastogeo.identification import identify
 from elastogeo.observe import Question
 from studies.bar_tests import make_test
+from studies.noise import Noise
 from studies.truth import Truth
 
 ALARM, SILENT, NOT_TESTED, ABSENT, REFUSED = "alarm", "silent", "not tested", "absent", "refused"
@@ -50,8 +51,10 @@ class Identified:
 
     Attributes
     ----------
-    layout, noise : str
-        Names of `LAYOUTS` and `NOISES`.
+    layout : str
+        A name of `LAYOUTS`.
+    noise : str or Noise
+        A name of `NOISES`, or any.
     truth : Truth or None
         None for the default of the layout.
     question : tuple of str, Question or None
@@ -60,7 +63,7 @@ class Identified:
     """
 
     layout: str
-    noise: str
+    noise: str | Noise
     truth: Truth | None = None
     question: tuple[str, ...] | Question | None = None
     resolution: float | None = None

@@ -190,7 +190,7 @@ def test_what_models_forces_and_physics_say(separated, poor) -> None:
     assert first["p_value"] is None
     assert first["left_out_level_um"] == 1000 * separated.models.models[0].left_out_level
     assert document["local_change"]["p_value"] == separated.local_change.p_value
-    assert document["consistency"]["sentence"] == separated.consistency.sentence
+    assert document["consistency"]["state"] == separated.consistency.state
     assert document["levels"][-1]["elastic_um"] == [1000 * bound for bound in separated.levels[-1].elastic]
     assert identification_json(poor)["models"] is None
     assert identification_json(replace(poor, consistency=None, local_change=None))["consistency"] is None

@@ -1,16 +1,8 @@
 """Labelled linear least squares, knowing nothing of machines: factor, confounding, solutions. Stands on `errors`."""
 
+from elastogeo.estimate.chi_bar_square import p_value_bound
 from elastogeo.estimate.clusters import solve_by_run
-from elastogeo.estimate.cone import (
-    Block,
-    Projection,
-    PsdCone,
-    is_never_negative,
-    p_value_at,
-    p_value_bound,
-    project,
-    psd_cone,
-)
+from elastogeo.estimate.cone import Block, Projection, PsdCone, is_never_negative, project, psd_cone
 from elastogeo.estimate.confounding import NULL_TOLERANCE, RANK_TOLERANCE, Confounding, confounding
 from elastogeo.estimate.distributions import DISTRIBUTIONS, Influence, coverage_factor
 from elastogeo.estimate.estimate import Estimate
@@ -61,7 +53,6 @@ __all__ = [
     "minimum_norm",
     "monte_carlo",
     "numerical_tolerance",
-    "p_value_at",
     "p_value_bound",
     "project",
     "psd_cone",

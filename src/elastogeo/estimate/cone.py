@@ -2,8 +2,7 @@
 
 The free estimate s of r combinations `T c` of parameters c has the covariance V. Where blocks of c are symmetric positive
 semidefinite matrices, T c lies in a convex cone K. The constrained estimate is the point of K nearest to s in the metric of
-V; the distance squared tells whether the data contradict the law (chi-bar-square: Perlman, doi:10.1214/aoms/1177697723;
-Silvapulle and Sen, Constrained Statistical Inference, 2005, chapter 3).
+V; the distance squared tells whether the data contradict the law (`p_value_bound`).
 
 It is solved on the polar side: the part of s outside K is the nearest point of the polar cone, which has r variables at
 most however many parameters there are, and is closed. K itself need not be: if an off-diagonal is seen and its diagonal is
@@ -15,19 +14,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import import_module
-from math import inf, sqrt
-from types import ModuleType
-from typing import Any
+from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 from scipy.linalg import solve_triangular
-from scipy.special import chdtrc, fdtrc
 
 from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.estimate.factor import Array
+from elastogeo.estimate.interior_point import nearest_polar_point
 
 Block = NDArray[np.int_]
 
@@ -37,12 +32,8 @@ INSIDE = 1e-8
 ROUNDING = 1e-9
 """An estimate outside by less than this share of its size is inside: rounding error of its readings or of the solver."""
 
-_LARGE = (1e6, 3e5)
-"""Size, in standard uncertainties, to which a larger estimate (from readings without noise) is scaled down; if the solver
-fails at the first, the second. Much larger, and it fails at some; much smaller, and its own error exceeds `ROUNDING`."""
-
-_TOLERANCES = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8)
-"""Of the solver, tried in this order."""
+_LARGE = 1e5
+"""Size, in standard uncertainties, to which a larger estimate (from readings without noise) is scaled down."""
 
 _DEPENDENT = 1e-9
 """Unit columns nearer than this to the span of others depend on them."""
@@ -51,7 +42,7 @@ _UNSEEN = 1e-7
 """A semidefinite direction of unit trace with a smaller effect on unit columns is not seen."""
 
 _RANK = 1e-4
-"""Eigenvalues of an unseen direction smaller than this, relative to its greatest, are the solver's zero."""
+"""Eigenvalues of an unseen direction smaller than this, relative to its greatest, are zero."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +85,8 @@ class PsdCone:
     restrictions : tuple of array, shape (m, n, n)
         Effect of each block's face on the restricted directions: `sum_k a_k A_k` is negative semidefinite for every outward
         direction a.
+    inner : array, shape (m,)
+        An outward direction for which it is negative definite in every block.
     """
 
     root: Array
@@ -102,11 +95,23 @@ class PsdCone:
     free: Array
     blocks: tuple[_Block, ...]
     restrictions: tuple[Array, ...]
+    inner: Array
 
     @property
     def dimension(self) -> int:
         """In how many directions an estimate can leave the cone."""
         return int(self.basis.shape[1])
+
+    @property
+    def directions(self) -> Array:
+        """Combinations of the estimates that the law restricts, shape (r, m): uncorrelated, each of variance 1."""
+        return np.asarray(solve_triangular(self.root, self.basis, lower=True, trans="T"))
+
+    @property
+    def restricted(self) -> NDArray[np.bool_]:
+        """Which of the estimates the law restricts, by themselves or together with others, shape (r,)."""
+        deviations = np.linalg.norm(self.root, axis=1)
+        return np.asarray(np.abs(self.directions).max(axis=1, initial=0.0) * deviations > _UNSEEN)
 
     @property
     def one_sided(self) -> bool:
@@ -163,8 +168,6 @@ def psd_cone(covariance: Array, combinations: Array, blocks: Sequence[Block]) ->
     ------
     InputError
         If the covariance is not positive definite, shapes do not fit, or a parameter stands in two places.
-    UnsupportedError
-        If the solver is not installed.
     """
     root = _root(covariance)
     if combinations.ndim != 2 or len(combinations) != len(root):
@@ -177,9 +180,9 @@ def psd_cone(covariance: Array, combinations: Array, blocks: Sequence[Block]) ->
         free = np.column_stack([unbound, *(_unrestricted(block, len(unbound)) for block in faced)])
         basis = _complement(_unit_effects(effect, free)[0])
         restrictions = [_restriction(block, basis) for block in faced]
-        unseen = _unseen(restrictions, basis.shape[1])
+        unseen, inner = _unseen(restrictions, basis.shape[1])
         if unseen is None:
-            return PsdCone(root, effect, basis, free, tuple(faced), tuple(restrictions))
+            return PsdCone(root, effect, basis, free, tuple(faced), tuple(restrictions), inner)
         faced = [_without(block, direction) for block, direction in zip(faced, unseen, strict=True)]
 
 
@@ -191,19 +194,20 @@ def project(cone: PsdCone, values: Array) -> Projection:
     InputError
         If the values are not r finite numbers.
     UnsupportedError
-        If the solver is not installed, or fails.
+        If rounding stops the search.
     """
     if values.shape != (len(cone.root),) or not np.isfinite(values).all():
         raise InputError(f"the estimate must be {len(cone.root)} finite numbers, got {values}")
     white = solve_triangular(cone.root, values, lower=True)
     norm = float(np.linalg.norm(white))
-    outside, multipliers, size = _polar_of_any_size(cone, cone.basis.T @ white, norm)
-    distance = float(outside @ outside) * size**2
-    inside = distance <= max(INSIDE, (ROUNDING * norm) ** 2)
-    outward = np.zeros(len(white)) if inside else cone.basis @ outside * size
+    size = max(1.0, norm / _LARGE)  # a cone has no size of its own
+    found = nearest_polar_point(cone.basis.T @ white / size, cone.restrictions, cone.inner)
+    distance = size * 0.5 * (found.least + found.most)
+    inside = (size * found.least) ** 2 <= max(INSIDE, (ROUNDING * norm) ** 2)
+    outward = np.zeros(len(white)) if inside else cone.basis @ found.point * size
     nearest = white - outward
     parameters = np.zeros(cone.effect.shape[1])
-    for block, multiplier in zip(cone.blocks, multipliers, strict=True):
+    for block, multiplier in zip(cone.blocks, found.multipliers, strict=True):
         parameters += size * _assembled(block, block.face @ multiplier @ block.face.T, len(parameters))
     if cone.free.shape[1]:
         columns, factors = _unit_effects(cone.effect, cone.free)
@@ -212,7 +216,7 @@ def project(cone: PsdCone, values: Array) -> Projection:
     return Projection(
         values=values.copy() if inside else cone.root @ nearest,
         parameters=parameters,
-        distance_squared=0.0 if inside else distance,
+        distance_squared=0.0 if inside else distance**2,
         outward=solve_triangular(cone.root, outward, lower=True, trans="T"),
         inside=inside,
     )
@@ -226,84 +230,6 @@ def is_never_negative(cone: PsdCone, weights: Array) -> bool:
         return False  # it changes along a direction that the law leaves free
     matrices = [np.tensordot(coordinates, matrices, 1) / size for matrices in cone.restrictions]
     return all(np.linalg.eigvalsh(matrix).min(initial=0.0) >= -_UNSEEN for matrix in matrices)
-
-
-def p_value_bound(
-    distance_squared: float, dimension: int, degrees_of_freedom: float = inf, *, one_sided: bool = True
-) -> float:
-    """Upper bound of the probability of such a distance from the cone or a greater one, whatever parameters obey the law.
-
-    The least favourable of them is the apex of the cone, the least favourable cone a half-line short of a space: half
-    chi-square of m degrees of freedom, half of m - 1 (Perlman 1969). For m = 1, a sign, it is exact.
-
-    Parameters
-    ----------
-    distance_squared : float
-    dimension : int
-        m: `PsdCone.dimension`.
-    degrees_of_freedom : float
-        nu, of the one variance by which the covariance was scaled; infinite if the covariance is known. With finite nu, i
-        times Fisher's F of (i, nu) replaces chi-square of i. **Not for a covariance that is estimated as a whole.**
-    one_sided : bool
-        `PsdCone.one_sided`; a law of equations only has the whole of chi-square of m.
-
-    Returns
-    -------
-    float
-        1 for a distance of zero.
-    """
-    if distance_squared <= 0 or dimension == 0:
-        return 1.0
-    tail = _tail(distance_squared, dimension, degrees_of_freedom)
-    return 0.5 * (tail + _tail(distance_squared, dimension - 1, degrees_of_freedom)) if one_sided else tail
-
-
-def p_value_at(
-    cone: PsdCone,
-    distance_squared: float,
-    at: Array | None = None,
-    degrees_of_freedom: float = inf,
-    draws: int = 999,
-    seed: int = 0,
-) -> float:
-    """Probability of such a distance or a greater one by Monte Carlo, if one given set of combinations is true.
-
-    Parameters
-    ----------
-    cone : PsdCone
-    distance_squared : float
-    at : array, shape (r,), optional
-        True combinations, in the cone. Default its apex, zero: the least favourable, so that the probability is at most
-        this for any truth. At the projection of the estimate it is smaller, and the level **only if that is the truth**.
-    degrees_of_freedom : float
-        Of the one variance by which the covariance was scaled.
-    draws, seed : int
-        Fixed seed: the same call gives the same number.
-
-    Returns
-    -------
-    float
-        `(1 + k) / (1 + draws)` with k draws as far or farther: a p-value in its own right, never zero.
-    """
-    random = np.random.default_rng(seed)
-    centre = np.zeros(cone.dimension)
-    if at is not None:
-        centre = cone.basis.T @ solve_triangular(cone.root, at, lower=True)
-    count = 0
-    for _ in range(draws):
-        variance = 1.0
-        if np.isfinite(degrees_of_freedom):
-            variance = random.chisquare(degrees_of_freedom) / degrees_of_freedom
-        outside, _multipliers = _polar(cone, centre + random.standard_normal(cone.dimension))
-        count += bool(outside @ outside >= distance_squared * variance)
-    return (1 + count) / (1 + draws)
-
-
-def _tail(square: float, i: int, nu: float) -> float:
-    """Probability that chi-square of i degrees of freedom, over a variance known to nu, exceeds a positive number."""
-    if i == 0:
-        return 0.0
-    return float(chdtrc(i, square) if np.isinf(nu) else fdtrc(i, nu, square / i))
 
 
 def _root(covariance: Array) -> Array:
@@ -399,94 +325,21 @@ def _without(block: _Block, direction: Array) -> _Block:
     return _Block(block.index, block.scale, block.effect, block.face @ vectors[:, values <= _RANK])
 
 
-def _unseen(restrictions: Sequence[Array], dimension: int) -> list[Array] | None:
+def _unseen(restrictions: Sequence[Array], dimension: int) -> tuple[list[Array] | None, Array]:
     """A semidefinite direction of the blocks, of greatest rank, that changes nothing in the restricted directions, if any.
 
-    Its blocks are the multipliers of: greatest t for which some `a` of length 1 has `-sum_k a_k A_k - t I` semidefinite.
+    It is what makes the distance of the trace from the cone of `(effect, trace)` zero. If there is none, the second is a
+    point inside the polar cone, shape (m,).
     """
     sizes = [matrices.shape[1] for matrices in restrictions]
     if not any(sizes):
-        return None
-    if not dimension:
-        return [np.eye(size) for size in sizes]
-    rows = np.vstack([np.column_stack([_svec(np.eye(n)), _svec(A).T]) for n, A in zip(sizes, restrictions, strict=True)])
-    ball = np.column_stack([np.zeros(dimension + 1), np.vstack([np.zeros(dimension), -np.eye(dimension)])])
-    clarabel = _clarabel()
-    solution = _solved(
-        np.zeros((dimension + 1, dimension + 1)),
-        np.concatenate([[-1.0], np.zeros(dimension)]),
-        np.vstack([rows, ball]),
-        np.concatenate([np.zeros(len(rows)), [1.0], np.zeros(dimension)]),
-        [*(clarabel.PSDTriangleConeT(n) for n in sizes if n), clarabel.SecondOrderConeT(dimension + 1)],
-    )
-    if solution.x[0] > _UNSEEN:
-        return None
-    directions = _matrices(np.array(solution.z), sizes)
-    greatest = max(float(np.linalg.eigvalsh(direction).max(initial=0.0)) for direction in directions)
-    return [direction / greatest for direction in directions]
-
-
-def _polar_of_any_size(cone: PsdCone, point: Array, norm: float) -> tuple[Array, list[Array], float]:
-    """The same as `_polar` of a point divided by the size that is given with it: a cone has no size of its own."""
-    first, second = (max(1.0, norm / large) for large in _LARGE)
-    try:
-        return *_polar(cone, point / first), first
-    except UnsupportedError:
-        if first == second:
-            raise
-        return *_polar(cone, point / second), second
-
-
-def _polar(cone: PsdCone, point: Array) -> tuple[Array, list[Array]]:
-    """Nearest point of the polar cone, shape (m,), and the multipliers of its blocks: those of the cone's nearest point."""
-    sizes = [matrices.shape[1] for matrices in cone.restrictions]
-    if not any(sizes):
-        return point, [np.zeros((n, n)) for n in sizes]
-    rows = np.vstack([_svec(A).T for A in cone.restrictions])
-    cones = [_clarabel().PSDTriangleConeT(n) for n in sizes if n]
-    solution = _solved(np.eye(len(point)), -point, rows, np.zeros(len(rows)), cones)
-    return np.array(solution.x), _matrices(np.array(solution.z), sizes)
-
-
-def _svec(matrices: Array) -> Array:
-    """Upper triangles, column by column, off-diagonals times the root of two: inner products are kept."""
-    columns, rows = np.tril_indices(matrices.shape[-1])
-    return np.asarray(matrices[..., rows, columns] * np.where(rows == columns, 1.0, sqrt(2)))
-
-
-def _matrices(vector: Array, sizes: Sequence[int]) -> list[Array]:
-    """Symmetric matrices of the upper triangles that a vector begins with."""
-    matrices, first = [], 0
-    for n in sizes:
-        columns, rows = np.tril_indices(n)
-        upper = np.zeros((n, n))
-        upper[rows, columns] = vector[first : first + len(rows)] * np.where(rows == columns, 0.5, sqrt(0.5))
-        matrices.append(upper + upper.T)
-        first += len(rows)
-    return matrices
-
-
-def _solved(P: Array, q: Array, A: Array, b: Array, cones: list[Any]) -> Any:
-    """Minimise `x^T P x / 2 + q^T x` with `b - A x` in the cones, to the tightest tolerance that rounding error allows."""
-    clarabel = _clarabel()
-    settings = clarabel.DefaultSettings()
-    settings.verbose = False
-    settings.max_threads = 1
-    status = ""
-    for tolerance in _TOLERANCES:
-        settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
-        solver = clarabel.DefaultSolver(sparse.csc_matrix(np.triu(P)), q, sparse.csc_matrix(A), b, cones, settings)
-        solution = solver.solve()
-        status = str(solution.status)
-        if status == "Solved":
-            return solution
-    raise UnsupportedError(f"the semidefinite programme of the constrained estimate was not solved: {status}")
-
-
-def _clarabel() -> ModuleType:
-    try:
-        return import_module("clarabel")
-    except ImportError as error:
-        raise UnsupportedError(
-            "the constrained estimate needs the solver clarabel, which is not installed: pip install 'elastogeo[physics]'"
-        ) from error
+        return None, np.zeros(dimension)
+    with_trace = [np.concatenate([A, np.eye(n)[np.newaxis]]) for A, n in zip(restrictions, sizes, strict=True)]
+    trace = np.append(np.zeros(dimension), 1.0)
+    found = nearest_polar_point(trace, with_trace, -trace, gap=_UNSEEN**2, enough=_UNSEEN)
+    if found.least >= _UNSEEN:
+        return None, found.inner[:dimension]
+    if found.most > sqrt(_UNSEEN):
+        raise UnsupportedError("what the test sees of the joints was not settled: rounding error stopped the search")
+    greatest = max(float(np.linalg.eigvalsh(direction).max(initial=0.0)) for direction in found.multipliers)
+    return [direction / greatest for direction in found.multipliers], np.zeros(dimension)

@@ -24,8 +24,9 @@ from elastogeo.identification.identification import (
 )
 from elastogeo.identification.influences import Effect, effect, effects
 from elastogeo.identification.models import Comparison, ModelFit, compare_models
-from elastogeo.identification.physics import Consistency, Reciprocity, consistency, reciprocal_sources, reciprocity
+from elastogeo.identification.physics import PHYSICALLY_CONSISTENT, Consistency, consistency
 from elastogeo.identification.preference import moving_axes, retaining_order
+from elastogeo.identification.reciprocity import Reciprocity, reciprocal_sources, reciprocity
 from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Trace
 from elastogeo.identification.rollers.laws import LawChoice, LawScore
 from elastogeo.identification.rollers.result import Stiffness, StiffnessMap
@@ -55,6 +56,7 @@ from elastogeo.identification.verdict import CONDITION_LIMIT
 
 __all__ = [
     "CONDITION_LIMIT",
+    "PHYSICALLY_CONSISTENT",
     "SCATTER",
     "SIGNIFICANT",
     "Agreement",

@@ -13,7 +13,7 @@ from elastogeo.identification.identification import (
     what_reciprocity_buys,
     with_question,
 )
-from elastogeo.identification.physics import Reciprocity
+from elastogeo.identification.reciprocity import Reciprocity
 from elastogeo.observe import MachineTest
 from elastogeo.result import Result
 

@@ -29,8 +29,15 @@ from elastogeo.identification.check import Check
 from elastogeo.identification.fit import fitness, rmse, strongest_harmonic
 from elastogeo.identification.influences import Effect, effects
 from elastogeo.identification.models import compare_models
-from elastogeo.identification.physics import Consistency, Reciprocity, consistency, reciprocal_sources, reciprocity
+from elastogeo.identification.physics import (
+    NOT_TESTED,
+    PHYSICALLY_CONSISTENT,
+    Consistency,
+    consistency,
+    physically_consistent,
+)
 from elastogeo.identification.preference import retaining_order
+from elastogeo.identification.reciprocity import Reciprocity, reciprocal_sources, reciprocity
 from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Trace
 from elastogeo.identification.robust import downweighted
 from elastogeo.identification.shared_structure import shared_harmonic
@@ -192,12 +199,15 @@ def _held_against_draws(
 
 
 def _held_against_physics(result: Identification) -> tuple[Identification, Check]:
-    """The result with what physics says of its compliances; a check that could not be made says so and counts as failed."""
+    """The result with what physics says of its compliances; a check that could not be made says so."""
     try:
         found = consistency_of(result)
     except (InputError, UnsupportedError) as error:
-        return result, Check("physically consistent", None, {"said": f"Not judged: {error}."})
-    return replace(result, consistency=found), found.check
+        return result, Check(PHYSICALLY_CONSISTENT, None, {"state": NOT_TESTED, "why": str(error)})
+    known = replace(result.solution, covariance=result.budget.covariance)
+    return replace(result, consistency=found), physically_consistent(
+        found, sources_of(result.test), result.confounding, known
+    )
 
 
 def with_question(
@@ -305,26 +315,20 @@ def confounding_of(test: MachineTest, systems: Systems) -> Confounding:
     return confounding(merged(systems.runs), order, systems.ceilings, max(run.collinear for run in observations))
 
 
-def consistency_of(identification: Identification, draws: int = 0, seed: int = 0) -> Consistency:
+def consistency_of(identification: Identification) -> Consistency:
     """Whether what a test says agrees with the physics of joints, by its uncertainty with all influences.
 
-    An uncertainty by run gives no joint test, since the runs are about as few as the parameters: the signs decide then, and
-    the correlations that measure the distance are those of independent readings.
-
-    Parameters
-    ----------
-    identification : Identification
-    draws, seed : int
-        As in `consistency`.
+    An uncertainty by run has few degrees of freedom; the correlations that measure the distance are those of independent
+    readings.
     """
-    test, budget = identification.test, identification.budget
-    sources = sources_of(test)
-    solution = replace(identification.solution, covariance=budget.covariance, degrees_of_freedom=budget.degrees_of_freedom)
-    metric = None
-    if identification.by_run:
-        scale = budget.standard_uncertainty / identification.naive.standard_uncertainty
-        metric = identification.naive.covariance * np.outer(scale, scale)
-    return consistency(sources, identification.confounding, solution, metric=metric, draws=draws, seed=seed)
+    budget, naive = identification.budget, identification.naive
+    return consistency(
+        sources_of(identification.test),
+        identification.confounding,
+        replace(identification.solution, covariance=budget.covariance, degrees_of_freedom=budget.degrees_of_freedom),
+        correlated_as=naive.covariance if identification.by_run else None,
+        by_reading=not identification.by_run,
+    )
 
 
 def what_reciprocity_buys(test: MachineTest) -> Reciprocity:

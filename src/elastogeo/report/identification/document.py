@@ -26,8 +26,9 @@ local_change : null, or {statistic, q, degrees_of_freedom, p_value, significant,
 models : null, or {supported, models: [{name, parameters, rmse_um, left_out_run_um, left_out_level_um, bic, p_value,
     exponent, fitness_percent: [{force_N, value}]}]}; `supported` is decided by left-out levels; `bic` (less that of the
     first) and `p_value` (F-test against the first) count on independent readings
-consistency : null, or {state, sentence, constrained: {name: value}, distance, dimension, p_value, p_joint, p_projected,
-    p_negative: {name: p}, violated: [name], outward: {name: coefficient}}, whether the compliances agree with physics
+consistency : null, or {state, why, constrained: {name: value}, distance, dimension, degrees_of_freedom, p_value, p_joint,
+    p_negative: {name: p}, violated: [name], outward: {name: coefficient}}, whether the compliances agree with physics; the
+    sentence is that of the check `physically consistent`
 repeats : null, or {levels: {level: runs}, combinations, mean, combination_std, estimate, standard_uncertainty,
     degrees_of_freedom, note}; from mean to degrees_of_freedom they are {name: number}; `estimate` is from all repeated
     runs together, `standard_uncertainty` is its own, from the scatter of the runs
@@ -210,13 +211,13 @@ def _models(found: Comparison) -> dict[str, Any]:
 def _consistency(found: Consistency) -> dict[str, Any]:
     return {
         "state": found.state,
-        "sentence": found.sentence,
+        "why": found.why,
         "constrained": found.constrained,
         "distance": found.distance,
         "dimension": found.dimension,
+        "degrees_of_freedom": found.degrees_of_freedom,
         "p_value": found.p_value,
         "p_joint": found.p_joint,
-        "p_projected": found.p_projected,
         "p_negative": found.p_negative,
         "violated": found.violated,
         "outward": found.outward,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from elastogeo.identification import Explanation
 from elastogeo.report.head import head
 from elastogeo.report.identification.explanation_document import explanation_json
+from elastogeo.report.identification.reciprocity import reciprocity_words
 from elastogeo.report.identification.words import confounding_words
 from elastogeo.report.numbers import pretty
 from elastogeo.report.text import combination
@@ -20,7 +21,7 @@ def explanation_view(explained: Explanation) -> View:
     table = Table(("parameter", "stands for"), rows, words=(0, 1), title="What is determined")
     words = tuple(map(pretty, confounding_words(found)))
     groups = tuple(f"Always together: {', '.join(group)}" for group in found.groups if len(group) > 1)
-    bought = () if explained.reciprocity is None else (pretty(explained.reciprocity.sentence),)
+    bought = () if explained.reciprocity is None else (pretty(reciprocity_words(explained.reciprocity)),)
     answer = (
         f"All {asked} parameters are determined."
         if found.rank == asked

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from elastogeo.report.numbers import display_unit, significant
+from collections.abc import Mapping
+from typing import Any
+
+from elastogeo.report.numbers import display_unit, probability, significant
 from elastogeo.report.sentences import Facts, says
 from elastogeo.report.text import UM
 
 REMEDIES = {
     "levels": "add force levels further apart, or another plane",
     "motion": "record more feeds and accelerations, in both directions",
+}
+
+_NOT_TESTED = {
+    "nothing restricted": "physics restricts nothing that this test determines, because no compliance that a load causes "
+    "along itself was asked for and seen",
 }
 
 
@@ -173,3 +181,47 @@ def above_resolution(facts: Facts, passed: bool | None) -> str:
         f"{named} {'moves' if one else 'move'} the readings by less than their resolution of {resolution * UM:.2g} µm; do "
         f"not rely on {'its value' if one else 'their values'} alone."
     )
+
+
+@says("physically consistent")
+def physically_consistent(facts: Facts, passed: bool | None) -> str:
+    """How far the estimate is from what joints can give, and whether noise explains it."""
+    if facts["state"] == "consistent":
+        return "Joints that are symmetric and never gain energy can give this estimate."
+    if "distance" not in facts or facts["why"] in _NOT_TESTED:
+        return f"Not tested: {_NOT_TESTED.get(facts['why'], facts['why'])}."
+    outside = f"{_units(facts['distance'])} outside what joints that are symmetric and never gain energy can give"
+    if passed is None:
+        return f"Not tested: the estimate is {outside}, {_in_doubt(facts)}"
+    p = probability(facts["p_value"])
+    if passed:
+        return f"Noise explains that the estimate is {outside} (p = {p}). Use the constrained values."
+    p = p if p.startswith("<") else f"= {p}"
+    named = "".join(f" {_negative(name, found)}" for name, found in facts["negative"].items())
+    named = named or f" {facts['farthest']} is larger than the compliances of the same joints along one load allow."
+    return (
+        f"The data contradict physics (p {p}): the estimate is {outside}.{named} Either the model lacks something that the "
+        f"readings hold, or the uncertainty misses an influence. Do not use the values as compliances of joints."
+    )
+
+
+def _units(distance: float) -> str:
+    shown = significant(distance, 2 if distance < 100 else 3)
+    return f"{shown} standard uncertainties"
+
+
+def _in_doubt(facts: Facts) -> str:
+    if facts["why"] == "independent readings assumed":
+        return "but that uncertainty assumes independent readings. Repeat the runs."
+    return (
+        f"but with {facts['degrees_of_freedom']:.2g} degrees of freedom the uncertainty is not known well enough to say "
+        f"whether noise explains it. Repeat the runs."
+    )
+
+
+def _negative(name: str, found: Mapping[str, Any]) -> str:
+    unit = display_unit(found["unit"], found["value"])
+    value, uncertainty = found["value"] * unit.factor, found["standard_uncertainty"] * unit.factor
+    others = [other for other in found["stands_for"] if other != name]
+    what = f" (the sum with {', '.join(others)})" if others else ""
+    return f"{name}{what} is {significant(value)} {unit.name} with a standard uncertainty of {significant(uncertainty, 2)}."
