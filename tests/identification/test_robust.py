@@ -15,7 +15,7 @@ from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.estimate import HUBER, huber_weights
 from elastogeo.identification import identify, systems_of, what_reciprocity_buys, with_question
 from elastogeo.observe import Imperfection, KnownInfluence, MachineTest
-from elastogeo.report import sentence_of
+from elastogeo.report import reciprocity_words, sentence_of
 from elastogeo.sources import simulate
 from studies.bar_tests import make_test as study_test
 
@@ -90,7 +90,7 @@ def test_symmetric_joints_merge_columns_and_change_no_prediction(make_test: Make
     assert symmetric.confounding.rank == free.confounding.rank
     for one, other in zip(free.traces, symmetric.traces, strict=True):
         assert_allclose(other.predicted, one.predicted, atol=1e-12)
-    assert "merges 6 pairs, 18 parameters into 12; the rank is 6" in what_reciprocity_buys(test).sentence
+    assert "merges 6 pairs, 18 parameters into 12. The rank is 6" in reciprocity_words(what_reciprocity_buys(test))
 
 
 def test_random_draws_stand_beside_the_first_order(make_test: MakeTest) -> None:
