@@ -28,7 +28,8 @@ from elastogeo.identification.physics import (
 from elastogeo.identification.reciprocity import ReciprocalSource, reciprocal_sources, reciprocity
 from elastogeo.machine import Array
 from elastogeo.observe import MachineTest, Observations
-from elastogeo.report import reciprocity_words, sentence_of
+from elastogeo.report import sentence_of
+from elastogeo.report.identification.reciprocity import reciprocity_words
 from elastogeo.sources import Situation, Source, select_sources, simulate
 
 MakeTest = Callable[..., MachineTest]

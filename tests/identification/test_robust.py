@@ -15,7 +15,8 @@ from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.estimate import HUBER, huber_weights
 from elastogeo.identification import identify, systems_of, what_reciprocity_buys, with_question
 from elastogeo.observe import Imperfection, KnownInfluence, MachineTest
-from elastogeo.report import reciprocity_words, sentence_of
+from elastogeo.report import sentence_of
+from elastogeo.report.identification.reciprocity import reciprocity_words
 from elastogeo.sources import simulate
 from studies.bar_tests import make_test as study_test
 
