@@ -16,7 +16,7 @@ from elastogeo.formats.documents.machine_tests import example_test, full_turn, r
 from elastogeo.formats.documents.machines import find_machine, machines, read_machine, shipped_machines
 from elastogeo.formats.documents.simulated_tests import simulate
 from elastogeo.formats.documents.simulations import Simulation, poses_of, read_simulation, write_runs
-from elastogeo.formats.documents.templates import new_test
+from elastogeo.formats.documents.templates import kinds_of_tests, new_test
 from elastogeo.formats.inspection import Inspected, InspectedColumn, inspect_file
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, log_formats, read_log
@@ -65,6 +65,7 @@ __all__ = [
     "find_machine",
     "full_turn",
     "inspect_file",
+    "kinds_of_tests",
     "log_formats",
     "machines",
     "new_test",

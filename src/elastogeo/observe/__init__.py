@@ -18,6 +18,7 @@ from elastogeo.observe.static_loads.probes import DisplacementProbes
 from elastogeo.observe.static_loads.sensor_frame import Sensor, SensorFrame, sensitivities
 from elastogeo.observe.static_loads.sensor_twist import SensorTwist, check_sees_twist, sensor_twist
 from elastogeo.observe.static_loads.static_force import StaticForce
+from elastogeo.observe.template import Template
 
 __all__ = [
     "PLANES",
@@ -47,6 +48,7 @@ __all__ = [
     "Setup",
     "SetupFact",
     "StaticForce",
+    "Template",
     "check_observations",
     "check_runs",
     "check_sees_twist",

@@ -13,6 +13,7 @@ from elastogeo.machine import Array, Machine
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.observations import Observations
 from elastogeo.observe.run import Run
+from elastogeo.observe.template import Template
 
 Respond = Callable[[Observations], Array]
 """The true readings of observations, shape (m,), on a machine whose parameters are known: to simulate with."""
@@ -55,6 +56,8 @@ class Setup(ABC):
         `twist`; empty for none.
     limits : tuple of str
         What its results rest on and cannot show themselves, as constants for which `report` has the sentences.
+    template : Template or None
+        What a new test begins with.
     """
 
     __slots__ = ()
@@ -62,6 +65,7 @@ class Setup(ABC):
     loads: ClassVar[bool] = True
     extra: ClassVar[str] = ""
     limits: ClassVar[tuple[str, ...]] = ()
+    template: ClassVar[Template | None] = None
 
     @property
     @abstractmethod

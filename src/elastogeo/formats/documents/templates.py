@@ -1,81 +1,108 @@
-"""A test folder to begin with: a commented test.toml, and a simulation.toml to try it with."""
+"""A test folder to begin with: a commented test.toml of any instrument, and a simulation.toml to try it with."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from elastogeo.errors import FormatError
+from elastogeo.errors import FormatError, InputError
+from elastogeo.formats.documents.feed_drives import FILE_NAME as DRIVE_FILE
 from elastogeo.formats.documents.machine_tests import FILE_NAME
-from elastogeo.formats.documents.machines import find_machine
+from elastogeo.formats.documents.machines import find_machine, shipped_machines
 from elastogeo.formats.text.whole_files import write_whole
+from elastogeo.machine import SPINDLE, Machine
+from elastogeo.observe import Template, instrument_named, instruments
+
+DRIVE = "drive"
+"""The kind of test that is no instrument on a machine: logs of its feed drives."""
 
 _TEST = """\
 schema = "elastogeo.test/1"
-name = "Loaded ball bar test"
-machine = "{machine}"          # a shipped machine (elastogeo machines) or a machine file beside this one
-instrument = "loaded-ball-bar"
-resolution_um = 0.24             # of the radial readings
-# simulated = "from what"        # say so here, if the readings were not measured
+name = "{title}"
+machine = "{machine}"            # a shipped machine (elastogeo machines), or the path of a machine file from here
+instrument = "{instrument}"
+resolution_um = {resolution:g}             # of the readings
+# simulated = "from what"        # say so if the readings were not measured; runs of elastogeo simulate say it themselves
 
-[setup]
-feed_mm_min = 2000
-# setup_deflection_um_per_bar = 2.33   # Eq. 5.38; needs pressure_bar in every run
-# tool_mm = [0, 0, -160]               # tool ball in the last tool-side carriage, if not the machine's own tool point
+# [about]                        # for the head of the report
+# date = 2026-03-01
+# operator = ""
+# machine_serial = ""
+# instrument_serial = ""
 
-[setup.circle]
-radius_mm = 150
-plane = "XY"                     # XY, YZ, ZX, or two directions: [[1, 0, 0], [0, 0.8, 0.6]]
-centre = {{ {centre} }}            # axis commands at the centre; rotary axes are held where this says
+{setup}
+# Without a [question] the program asks what this instrument can answer. To ask something else:
+# [question]
+# parameters = ["C_XXX", "C_??Y"]  # names, patterns or presets: see elastogeo explain
 
-# Asked for, unless a [question] says otherwise: compliance, geometry and location; each run has its own circle centre.
-# To ask for something else: [question] with parameters = [...], names, patterns (C_??X) or presets.
+# What is known of systematic influences enters the uncertainty:
+# [[influences]]
+# kind = "force-scale"           # see docs/formats.md for the others
+# relative = 0.01
 
-# One entry a run. Columns of a run file: angle_deg, radial_um (or other units).
-# Instead of force_N a run may have pressure_bar, with [setup.calibration] pressure_bar = [...], force_N = [...].
-"""
-
-_RUN = """
-[[runs]]
-file = "runs/{name}.csv"
-force_N = {force:g}
-sense = "ccw"
-repeat = {repeat}
+# One entry a run. Columns of a run file: {columns}.
 """
 
 _SIMULATION = """\
 schema = "elastogeo.simulation/1"
 seed = 1
-readings = 1000                  # of a full turn
+"""
 
-[imperfection]
-noise_um = 0.07
-resolution_um = 0.24
-eccentricity_um = 0.2            # of the centre, from run to run
-force_scatter = 0.002            # relative, from run to run
+_DRIVES = """\
+schema = "elastogeo.drive/1"
+name = "Feed drives"
+logs = ["logs/*.csv"]            # each log is a run
 
-[values]                         # true parameters, in mm, N, rad
-C_XXX = 6e-5
-C_YYY = 5e-5
-E_XX1 = -1e-4
+# Channels of the logs. A channel whose header says quantity and unit (position_x_mm, current_x_A) needs no entry.
+# elastogeo inspect LOG lists the channels of a log.
+# [[channels]]
+# quantity = "position_x"
+# channel = "X1_ActualPosition"
+# unit = "mm"
+
+# [clock]
+# sample_time_ms = 2             # of logs that keep no clock
+
+# [[drives]]                     # for forces in newtons: motor constant and transmission
+# axis = "X"
+# torque_constant_N_m_per_A = 1.65
+# pitch_mm = 10
+# efficiency = 0.9
+
+# held_out = ["run_7"]           # runs that are predicted only
 """
 
 
+def kinds_of_tests() -> tuple[str, ...]:
+    """The kinds of tests of which a new one can be made: instruments that have a template, and `drive`."""
+    return (*(name for name, kind in instruments().items() if kind.template is not None), DRIVE)
+
+
 def new_test(
-    folder: str | Path, machine: str = "hermle_c50", forces: Sequence[float] = (36.0, 238.0, 490.0, 742.0), repeats: int = 1
+    folder: str | Path,
+    machine: str = "",
+    forces: Sequence[float] = (),
+    repeats: int = 0,
+    instrument: str = "loaded-ball-bar",
+    engagements: Sequence[float] = (),
 ) -> Path:
-    """Make a folder with a test file and a simulation file.
+    """Make a folder with a test file, and a simulation file that its instrument can be tried with.
 
     Parameters
     ----------
     folder : str or Path
         It must not exist.
     machine : str
-        A shipped machine or a machine file.
+        A shipped machine or a machine file; by default one that suits the instrument.
     forces : sequence of float [N]
-        Levels.
+        Levels, of an instrument that applies a force; by default its usual ones.
     repeats : int
-        Runs at each level.
+        Runs at each level, and in each direction; 0 for the instrument's usual number.
+    instrument : str
+        Or `drive`, for logs of feed drives.
+    engagements : sequence of float [mm]
+        Levels of a ball-roller test.
 
     Returns
     -------
@@ -86,20 +113,72 @@ def new_test(
     ------
     FormatError
         If the folder exists, or there is no such machine.
+    InputError
+        If there is no such instrument, or it has no such levels.
     """
     folder = Path(folder)
-    found = find_machine(machine, Path.cwd())
     if folder.exists():
         raise FormatError(f"{folder} is there already; choose another name, nothing was changed")
-    centre = ", ".join(
-        f"{joint.name}_{'deg' if joint.is_rotary else 'mm'} = 0" for joint in found.joints if joint.name != "S"
+    if instrument == DRIVE:
+        (file,) = write_whole({folder / DRIVE_FILE: _DRIVES.encode()})
+        return file
+    template = _template_of(instrument)
+    levels = _levels(template, instrument, forces, engagements)
+    named = machine or template.machine
+    found = find_machine(named, Path.cwd())
+    text = _TEST.format(
+        title=template.title,
+        machine=_relative(named, folder),
+        instrument=instrument,
+        resolution=template.resolution_um,
+        setup=template.setup.replace("@CENTRE@", _centre(found)),
+        columns=template.columns,
     )
-    runs = "".join(
-        _RUN.format(name=f"{force:g}N-{repeat}", force=force, repeat=repeat)
-        for force in sorted(forces)
-        for repeat in range(1, repeats + 1)
-    )
-    name = machine if not machine.endswith(".toml") else str(Path(machine).resolve())
-    text = _TEST.format(machine=name, centre=centre) + runs
-    write_whole({folder / FILE_NAME: text.encode(), folder / "simulation.toml": _SIMULATION.encode()})
+    runs = "".join(_runs(template, levels, repeats or template.repeats))
+    simulation = _SIMULATION + template.simulation
+    write_whole({folder / FILE_NAME: (text + runs).encode(), folder / "simulation.toml": simulation.encode()})
     return folder / FILE_NAME
+
+
+def _template_of(instrument: str) -> Template:
+    known = kinds_of_tests()
+    if instrument not in known:
+        raise InputError(f"there is no template for {instrument!r}; there are: {', '.join(known)}")
+    template = instrument_named(instrument).template
+    if template is None:
+        raise InputError(f"the instrument {instrument!r} has no template; write its test.toml by hand")
+    return template
+
+
+def _levels(template: Template, instrument: str, forces: Sequence[float], engagements: Sequence[float]) -> tuple[float, ...]:
+    asked = {"force": tuple(forces), "engagement": tuple(engagements)}
+    strange = next((kind for kind, levels in asked.items() if levels and kind != template.level), "")
+    if strange:
+        raise InputError(f"a test with {instrument} has no level of {strange}; leave it out")
+    return tuple(sorted(asked.get(template.level, ()) or template.levels))
+
+
+def _runs(template: Template, levels: Sequence[float], repeats: int) -> Iterator[str]:
+    """One entry of `runs` for each level, direction and repeat."""
+    for level in levels or (0.0,):
+        for repeat in range(1, repeats + 1):
+            for sense in ("ccw", "cw") if template.both_ways else ("",):
+                key, shown = {
+                    "force": (f"force_N = {level:g}\n", f"{level:g}N"),
+                    "engagement": (f"engagement_um = {1000 * level:g}\n", f"{1000 * level:g}um"),
+                }.get(template.level, ("", ""))
+                name = "-".join(filter(None, [shown, sense, str(repeat)]))
+                turned = f'sense = "{sense}"\n' if sense else ""
+                yield f'\n[[runs]]\nfile = "runs/{name}.csv"\n{key}{turned}repeat = {repeat}\n'
+
+
+def _centre(machine: Machine) -> str:
+    axes = (joint for joint in machine.joints if joint.name != SPINDLE)
+    return ", ".join(f"{joint.name}_{'deg' if joint.is_rotary else 'mm'} = 0" for joint in axes)
+
+
+def _relative(machine: str, folder: Path) -> str:
+    """A machine as the test names it: a shipped one by name, a file by its path from the folder of the test."""
+    if machine in shipped_machines():
+        return machine
+    return Path(os.path.relpath(machine, folder)).as_posix()

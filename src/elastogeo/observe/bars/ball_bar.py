@@ -18,12 +18,38 @@ from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
+from elastogeo.observe.template import CIRCLE, Template
 
 MOST_TURNS = 10.0
 """Turns that a run may have."""
 
 MOST_DEVIATION = 0.1
 """Share of the radius that a reading may deviate."""
+
+
+_SETUP = """\
+[setup]
+feed_mm_min = 2000
+# calibration = "gauge.toml"             # of elastogeo calibrate: the runs may then say pressure_bar in place of force_N
+# setup_deflection_um_per_bar = 2.33     # Eq. 5.38; needs pressure_bar in every run
+# tool_mm = [0, 0, -160]                 # tool ball in the last tool-side carriage, if not the machine's own tool point
+
+"""
+
+_SIMULATION = """\
+readings = 1000                  # of a full turn
+
+[imperfection]
+noise_um = 0.07
+resolution_um = 0.24
+eccentricity_um = 0.2            # of the centre, from run to run
+force_scatter = 0.002            # relative, from run to run
+
+[values]                         # true parameters, in mm, N, rad
+C_XXX = 6e-5
+C_YYY = 5e-5
+E_XX1 = -1e-4
+"""
 
 
 @instrument("loaded-ball-bar")
@@ -62,6 +88,14 @@ class LoadedBallBar(Setup):
 
     extra: ClassVar = "circularity"
     limits: ClassVar = ("bar length", "bar calibration", "force calibration", "form of the balls")
+    template: ClassVar = Template(
+        title="Loaded ball bar test",
+        setup=_SETUP + CIRCLE,
+        columns="angle_deg, radial_um",
+        simulation=_SIMULATION,
+        resolution_um=0.24,
+        levels=(36.0, 238.0, 490.0, 742.0),
+    )
 
     @property
     def quantities(self) -> tuple[str, ...]:

@@ -17,6 +17,24 @@ from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
+from elastogeo.observe.template import CIRCLE, Template
+
+_SIMULATION = """\
+readings = 720                   # of a full turn
+
+[imperfection]
+noise_um = 0.1
+resolution_um = 0.1
+eccentricity_um = 0.3            # of the centre, from run to run
+
+[values]                         # true parameters, in mm, rad, s
+E_XX1 = 2.5e-5
+E_YY1 = -4e-5
+B_XX = 0.006
+B_YY = 0.004
+T_X1 = 0.0003
+E_Xt0 = 0.012
+"""
 
 
 @instrument("ball-bar")
@@ -41,6 +59,15 @@ class BallBar(Setup):
     loads: ClassVar = False
     extra: ClassVar = "circularity"
     limits: ClassVar = ("bar length", "bar calibration", "form of the balls")
+    template: ClassVar = Template(
+        title="Ball bar test",
+        setup="[setup]\nfeed_mm_min = 1000\n\n" + CIRCLE,
+        columns="angle_deg, radial_um",
+        simulation=_SIMULATION,
+        level="",
+        both_ways=True,
+        repeats=3,
+    )
 
     @property
     def quantities(self) -> tuple[str, ...]:

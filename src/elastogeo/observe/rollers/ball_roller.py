@@ -43,6 +43,7 @@ from elastogeo.observe.circle import Circle, circle_facts, circle_parameters
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.rollers.beginning import TEMPLATE
 from elastogeo.observe.rollers.force import ContactForce, contact_force, drives_against, observed_influences
 from elastogeo.observe.rollers.rig import Rig
 from elastogeo.observe.rollers.track import Track, moving, track_of
@@ -130,6 +131,7 @@ class BallRoller(Setup):
 
     extra: ClassVar = "stiffness-map"
     limits: ClassVar = ("touching radius", "motor constants", "set-up compliance", "slow motion")
+    template: ClassVar = TEMPLATE
 
     def __post_init__(self) -> None:
         """Refuse a set-up without drives, or with two of one axis."""

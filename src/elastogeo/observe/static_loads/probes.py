@@ -33,9 +33,34 @@ from elastogeo.observe.static_loads.load import (
     unit_vectors,
     with_lever,
 )
+from elastogeo.observe.template import Template
 
 MOST_TURNS = 10.0
 """Turns that a run may have."""
+
+
+_SETUP = """\
+[setup]
+bar = [1, 0, 1]                  # direction of the force on the tool; it turns with the table, as the probes do
+probes = [[1, 0.2, 0], [0, 1, 0.3], [0.4, 0, 1]]   # in which each probe counts as positive
+centre = { @CENTRE@ }
+rotary_turn = { C = 1 }          # C turns along with the readings' angle
+# calibration = "gauge.toml"     # of elastogeo calibrate: the runs may then say pressure_bar in place of force_N
+"""
+
+_SIMULATION = """\
+readings = 72                    # of a full turn of the table
+
+[imperfection]
+noise_um = 0.05
+resolution_um = 0.1
+
+[values]                         # true parameters, in mm, N, rad
+C_XXX = 6e-5
+C_YYY = 4e-5
+C_ZZZ = 3e-5
+E_Xw0 = 0.003
+"""
 
 
 @instrument("displacement-probes")
@@ -79,6 +104,14 @@ class DisplacementProbes(Setup):
 
     extra: ClassVar = "cartesian-stiffness"
     limits: ClassVar = ("force", "sensor")
+    template: ClassVar = Template(
+        title="Loaded bar and displacement probes",
+        setup=_SETUP,
+        columns="angle_deg (of the table), displacement_1_um, displacement_2_um, displacement_3_um",
+        simulation=_SIMULATION,
+        machine="huron_kx8",
+        levels=(200.0, 400.0, 600.0),
+    )
 
     def __post_init__(self) -> None:
         """Refuse directions that are none."""

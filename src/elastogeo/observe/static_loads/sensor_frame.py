@@ -36,6 +36,7 @@ from elastogeo.observe.static_loads.load import (
     unit_vector,
     with_lever,
 )
+from elastogeo.observe.template import Template
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +73,39 @@ def sensitivities(sensors: Sequence[Sensor]) -> Array:
         raise InputError("the frame has no sensor; give each as [[setup.sensors]] with point_mm and direction")
     n = np.array([unit_vector(sensor.direction, "the direction of a sensor") for sensor in sensors])
     return np.hstack([n, np.cross([sensor.point for sensor in sensors], n)])
+
+
+_SENSORS = (
+    ((60, -40, 30), (1, 0, 0)),
+    ((60, 40, 30), (1, 0, 0)),
+    ((60, 0, -50), (1, 0, 0)),
+    ((-40, 60, 20), (0, 1, 0)),
+    ((40, 60, 30), (0, 1, 0)),
+    ((-45, -30, 90), (0, 0, 1)),
+    ((40, -35, 90), (0, 0, 1)),
+    ((0, 50, 90), (0, 0, 1)),
+)
+_SETUP = """\
+[setup]
+direction = [1, 2, -2]           # of the force on the tool
+lever_mm = [15, -10, -40]        # from the tool point to where it acts
+pose = { @CENTRE@ }            # where the machine stands
+""" + "".join(
+    f"\n[[setup.sensors]]\npoint_mm = {list(point)}\ndirection = {list(direction)}\n" for point, direction in _SENSORS
+)
+
+_SIMULATION = """\
+readings = 24
+
+[imperfection]
+noise_um = 0.05
+resolution_um = 0.1
+
+[values]                         # true parameters, in mm, N, rad
+C_XXX = 6e-5
+C_YYY = 4e-5
+C_CXX = 2e-8
+"""
 
 
 @instrument("sensor-frame")
@@ -113,6 +147,14 @@ class SensorFrame(Setup):
 
     extra: ClassVar = "twist"
     limits: ClassVar = ("force", "sensor")
+    template: ClassVar = Template(
+        title="Frame of displacement sensors",
+        setup=_SETUP,
+        columns="force_N (of every reading), displacement_1_um to displacement_8_um",
+        simulation=_SIMULATION,
+        machine="huron_kx8",
+        levels=(300.0, 600.0),
+    )
 
     def __post_init__(self) -> None:
         """Refuse a frame without sensors, and a direction that is none."""

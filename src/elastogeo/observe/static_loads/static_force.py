@@ -34,6 +34,28 @@ from elastogeo.observe.static_loads.load import (
     unit_vector,
     with_lever,
 )
+from elastogeo.observe.template import Template
+
+_SETUP = """\
+[setup]
+direction = [1, 0, 0]            # of the force on the tool; a weight pulls along [0, 0, -1]
+# sensor = [1, 0, 0]             # in which the sensor counts as positive, if not along the force
+pose = { @CENTRE@ }            # where the machine stands
+"""
+
+_SIMULATION = """\
+readings = 120                   # 40 of each loading cycle, from zero to the run's force and back
+end_deg = 1080
+
+[imperfection]
+noise_um = 0.05
+resolution_um = 0.1
+
+[values]                         # true parameters, in mm, N, rad
+C_XXX = 6e-5
+C_XXY = 1e-5
+E_R0 = 0.002
+"""
 
 
 @instrument("static-force")
@@ -74,6 +96,14 @@ class StaticForce(Setup):
 
     extra: ClassVar = "loading-cycles"
     limits: ClassVar = ("force", "sensor")
+    template: ClassVar = Template(
+        title="Static force and a displacement sensor",
+        setup=_SETUP,
+        columns="force_N (of every reading), displacement_um",
+        simulation=_SIMULATION,
+        machine="huron_kx8",
+        levels=(250.0, 500.0, 750.0),
+    )
 
     def __post_init__(self) -> None:
         """Refuse directions that are none."""
