@@ -102,7 +102,9 @@ def test_two_runs_of_one_name_are_refused(folder):
 
 
 def test_a_wrong_sense_is_refused(folder):
-    (folder / "test.toml").write_text((folder / "test.toml").read_text().replace('sense = "ccw"', 'sense = "left"', 1))
+    (folder / "test.toml").write_text(
+        (folder / "test.toml").read_text().replace("repeat = 1", 'sense = "left"\nrepeat = 1', 1)
+    )
     with pytest.raises(FormatError, match="sense is 'left'; write ccw"):
         read_test_document(folder)
 
@@ -151,7 +153,7 @@ def with_logs(folder, text=LOG, more="", runs=""):
     names = ("36N-1", "36N-2", "742N-1", "742N-2")
     for name in names:
         (folder / "runs" / f"{name}.csv").write_text(text.replace(",run\n", f",{name}\n"))
-    document = (folder / "test.toml").read_text().replace('sense = "ccw"', f'sense = "ccw"\n{runs}')
+    document = (folder / "test.toml").read_text().replace("repeat = ", f"{runs}\nrepeat = ")
     (folder / "test.toml").write_text(document + more)
     return folder
 
