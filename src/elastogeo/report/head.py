@@ -7,10 +7,9 @@ from typing import Any
 from elastogeo.observe import MachineTest
 from elastogeo.report.document import instrument_name
 from elastogeo.report.text import in_micrometres
+from elastogeo.report.view import Section, Table
 
 _MINUTE = 60.0
-_HASH = 12
-"""Digits of a file's hash that are shown; the JSON has all."""
 
 
 def head(test: MachineTest) -> tuple[tuple[str, str], ...]:
@@ -18,7 +17,7 @@ def head(test: MachineTest) -> tuple[tuple[str, str], ...]:
     topology, about = test.machine.topology, test.about
     readings = sum(len(next(iter(run.columns.values()))) for run in test.runs)
     reference = test.question.reference_force
-    files = {run.file: run.sha256 for run in test.runs if run.sha256}
+    files = {run.file for run in test.runs if run.sha256}
     lines = [
         ("Machine", f"{test.machine.name}, {topology.compact} {topology.iso}"),
         ("Machine serial number", about.machine_serial),
@@ -34,9 +33,15 @@ def head(test: MachineTest) -> tuple[tuple[str, str], ...]:
         ("Reference", "" if reference is None else f"the readings at {reference:g} N are subtracted"),
         ("Resolution", "not stated" if test.resolution is None else f"{in_micrometres(test.resolution)} µm"),
         ("Remarks", about.remarks),
-        ("Files (SHA-256)", ", ".join(f"{name} {digest[:_HASH]}" for name, digest in files.items())),
+        ("Files", f"{len(files)}, their SHA-256 below" if files else ""),
     ]
     return tuple((label, text) for label, text in lines if text)
+
+
+def files_section(test: MachineTest) -> tuple[Section, ...]:
+    """The files that the runs were read from, with their hashes; none where there are none."""
+    rows = tuple((run.name, run.file, run.sha256) for run in test.runs if run.sha256)
+    return (Section("Files", tables=(Table(("run", "file", "SHA-256"), rows, words=(0, 1, 2)),)),) if rows else ()
 
 
 def _path(test: MachineTest) -> str:

@@ -16,6 +16,7 @@ _LEAST_PROBABILITY, _SURE = 1e-4, 0.1
 
 _PREFIXES = {
     "mm": ((1.0, "mm"), (1e3, "µm"), (1e6, "nm"), (1e9, "pm"), (1e12, "fm")),
+    "s": ((1.0, "s"), (1e3, "ms"), (1e6, "µs")),
     "rad": ((1.0, "rad"), (1e3, "mrad"), (1e6, "µrad"), (1e9, "nrad"), (1e12, "prad")),
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil
 
@@ -16,7 +17,10 @@ from elastogeo.report.text import UM
 _OUTWARD, _INWARD = 0.8, 0.6
 """The greatest deviations are drawn at most at these parts of the nominal radius."""
 _DIVISIONS = 6
+_VALUES_AT = np.radians(67.5)
+"""Angle [rad] at which the rings are labelled."""
 _EDGE = 1e-9
+_BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 _SPOKES = ((0, "left", "center"), (90, "center", "bottom"), (180, "right", "center"), (270, "center", "top"))
 
 
@@ -56,14 +60,28 @@ def scale_for(deviations: Array, radius: float) -> Scale:
     return Scale(radius, magnification, division, inner, outer)
 
 
-def rings(ax: Axes, scale: Scale) -> None:
-    """An empty polar drawing: the nominal circle, and a ring every division."""
+def rings(ax: Axes, scale: Scale, axes: Sequence[str] = (), values: bool = False) -> None:
+    """An empty polar drawing: the nominal circle, and a ring every division.
+
+    Parameters
+    ----------
+    ax : Axes
+    scale : Scale
+    axes : sequence of str
+        Names of the two directions of the plane, from which the angle counts; angles are written where they are not known.
+    values : bool
+        Whether each ring says its deviation [µm].
+    """
     ax.set_aspect("equal")
     ax.set_axis_off()
     for k in range(scale.inner, scale.outer + 1):
         radius = scale.radius + k * scale.division * scale.magnification
         ring(ax, radius, GREY if k == 0 else FAINT, 1.1 if k == 0 else 0.6)
-    spokes(ax, scale.limit)
+        if values:
+            x, y = radius * np.cos(_VALUES_AT), radius * np.sin(_VALUES_AT)
+            text = f"{k * scale.division * UM:+g}".replace("-", "−") if k else "0 µm"
+            ax.text(x, y, text, ha="center", va="center", fontsize=SMALL - 1, color=GREY, zorder=5, bbox=_BEHIND)
+    spokes(ax, scale.limit, axes)
 
 
 def ring(ax: Axes, radius: float, colour: str, width: float, style: str = "-") -> None:
@@ -72,12 +90,30 @@ def ring(ax: Axes, radius: float, colour: str, width: float, style: str = "-") -
     ax.plot(radius * np.cos(around), radius * np.sin(around), color=colour, linewidth=width, linestyle=style, zorder=1)
 
 
-def spokes(ax: Axes, radius: float) -> None:
-    """The four directions of a circular test, labelled with their angles."""
-    for degrees, ha, va in _SPOKES:
+def spokes(ax: Axes, radius: float, axes: Sequence[str] = ()) -> None:
+    """The four directions of a circular test, labelled with the axes, or with their angles."""
+    names = [f"+{axes[0]}", f"+{axes[1]}", f"−{axes[0]}", f"−{axes[1]}"] if axes else [f"{at}°" for at, _, _ in _SPOKES]
+    for (degrees, ha, va), name in zip(_SPOKES, names, strict=True):
         x, y = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
         ax.plot([0, radius * x], [0, radius * y], color=FAINT, linewidth=0.6, zorder=0)
-        ax.text(1.03 * radius * x, 1.03 * radius * y, f"{degrees}°", ha=ha, va=va, fontsize=SMALL, color=GREY)
+        ax.text(1.03 * radius * x, 1.03 * radius * y, name, ha=ha, va=va, fontsize=SMALL, color=GREY)
+
+
+def centre_part(angle: Array, deviation: Array) -> Array:
+    """The part of a trace that an offset of the circle's centre makes: least squares, orders 0 and 1; of order 1 only.
+
+    Parameters
+    ----------
+    angle, deviation : array, shape (m,) [rad], [mm]
+
+    Returns
+    -------
+    array, shape (m,) [mm]
+        To subtract from the trace, as ball-bar software does before it draws one.
+    """
+    first = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle)])
+    fitted = np.linalg.lstsq(first, deviation, rcond=None)[0]
+    return np.asarray(first[:, 1:] @ fitted[1:])
 
 
 def around(angle: Array, deviation: Array, scale: Scale, traces: int) -> tuple[Array, Array]:
@@ -118,3 +154,9 @@ def nominal_radius(result: Identification) -> float | None:
 def pose_axis(result: Identification) -> tuple[str, float]:
     """Label of what the readings count along, and the factor to its shown unit."""
     return ("angle (°)", 180 / np.pi) if is_angular(result) else (result.test.setup.pose_quantity, 1.0)
+
+
+def plane_axes(result: Identification) -> tuple[str, ...]:
+    """Names of the two directions of the plane of a circular test; none of a tilted one."""
+    plane = next((fact.value for fact in result.test.setup.facts() if fact.name == "plane"), None)
+    return tuple(plane) if isinstance(plane, str) and len(plane) == 2 else ()

@@ -54,6 +54,10 @@ _RC: Any = {
     "svg.hashsalt": "elastogeo",
 }
 _FORCES = LinearSegmentedColormap.from_list("forces", ["#a6dbe8", "#56a9d6", "#4878b8", "#6c5aa8", "#a0468f"])
+_DIRECTIONS = {
+    1: LinearSegmentedColormap.from_list("ccw", ["#9fd0ee", "#3d9bd4", "#0072b2", "#005688"]),
+    -1: LinearSegmentedColormap.from_list("cw", ["#f6c39b", "#ef8a4a", "#d55e00", "#a84a00"]),
+}
 _POINTS, _FEWEST = 30000, 150
 _LOCK = RLock()  # matplotlib's settings are global, and a web application draws from several threads
 
@@ -85,6 +89,13 @@ def force_colours(forces: Sequence[float]) -> dict[float, str]:
     """A colour for each force level, darker with the force, all light enough for a dark line on them."""
     last = max(len(forces) - 1, 1)
     return {force: to_hex(_FORCES(k / last if len(forces) > 1 else 0.5)) for k, force in enumerate(forces)}
+
+
+def direction_colours(forces: Sequence[float], sense: int) -> dict[float, str]:
+    """A colour for each force level of one direction: CCW in blues, CW in oranges, stronger with the force."""
+    last = max(len(forces) - 1, 1)
+    shades = _DIRECTIONS[sense]
+    return {force: to_hex(shades(k / last if len(forces) > 1 else 0.6)) for k, force in enumerate(forces)}
 
 
 def nice_step(largest: float) -> float:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from elastogeo.identification import Circularity, Diagnosis
 from elastogeo.report.faults.diagnosis_document import diagnosis_json
 from elastogeo.report.faults.rows import diagnosis_rows
-from elastogeo.report.head import head
+from elastogeo.report.head import files_section, head
 from elastogeo.report.identification.pictures import picture
 from elastogeo.report.numbers import pretty, significant
 from elastogeo.report.text import UM
@@ -55,6 +55,7 @@ def diagnosis_view(diagnosis: Diagnosis) -> View:
             Section("Faults, ranked", pictures=(ranking,), tables=(fault_table(diagnosis),), points=also, note=untold),
             Section("Circular deviations after ISO 230-4", tables=circular_tables(diagnosis.circularity)),
             Section("Residuals", pictures=(picture("residuals", result),)),
+            *files_section(test),
         ),
     )
 

@@ -12,7 +12,9 @@ if TYPE_CHECKING:
 
 _CAPTIONS = {
     "traces": (
-        "Measured and predicted deviations of every force level.",
+        "Measured and predicted deviations, CCW in blue, CW in orange, stronger with the force; the offset of the "
+        "circle's centre "
+        "is removed.",
         "Measured and predicted traces of every force level",
     ),
     "residuals": (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,16 +15,32 @@ from elastogeo.identification import Identification, Trace, same_force
 from elastogeo.report.drawing.circles import (
     Scale,
     around,
+    centre_part,
     division_bar,
     is_angular,
     nominal_radius,
+    plane_axes,
     pose_axis,
     rings,
     scale_for,
 )
-from elastogeo.report.drawing.style import BLUE, GREY, INK, SMALL, force_colours, grid, new_figure, thinned
+from elastogeo.report.drawing.style import (
+    BLUE,
+    GREY,
+    INK,
+    SMALL,
+    direction_colours,
+    force_colours,
+    grid,
+    new_figure,
+    thinned,
+)
 from elastogeo.report.numbers import significant
 from elastogeo.report.text import UM
+
+_SENSES = {1: "CCW", -1: "CW"}
+_ARROW_AT, _ARROW = np.radians(135.0), np.radians(14.0)
+"""Angle [rad] about which the arrows of direction stand, outside the rings, and half the angle that they span."""
 
 
 def traces_figure(result: Identification) -> Figure:
@@ -61,24 +78,74 @@ def of_level(result: Identification, force: float) -> Iterator[tuple[Trace, bool
 
 
 def _around(result: Identification) -> Figure:
-    figure = new_figure(5.2)
+    figure = new_figure(6.0)
     ax = figure.subplots()
-    every = np.concatenate([values for t in result.traces for values in (t.measured, t.predicted)])
+    drawn = [_centred(trace) for trace in result.traces]
+    every = np.concatenate([values for trace in drawn for values in (trace.measured, trace.predicted)])
     scale = scale_for(every, nominal_radius(result) or 1.0)
-    rings(ax, scale)
-    colours = _draw_levels(ax, result, scale)
+    rings(ax, scale, plane_axes(result), values=True)
+    senses = {run.name: run.sense for run in result.test.runs}
+    forces = [level.force for level in result.levels]
+    colours = {sense: direction_colours(forces, sense) for sense in sorted({senses[t.run] for t in drawn}, reverse=True)}
+    seen: set[tuple[float, int]] = set()
+    for trace in sorted(drawn, key=lambda trace: abs(trace.force)):
+        force = min(forces, key=lambda level: abs(level - trace.force))
+        sense = senses[trace.run]
+        again = (force, sense) in seen
+        seen.add((force, sense))
+        _draw(ax, trace, scale, colours[sense][force], len(drawn), again)
+    for sense in colours:
+        strongest = max((trace for trace in drawn if senses[trace.run] == sense), key=lambda trace: abs(trace.force))
+        _direct(ax, strongest, scale, colours[sense][max(forces, key=abs)], sense)
     division_bar(ax, scale, nominal_radius(result) is not None)
     _legend(ax, colours, result.reference_force)
     return figure
 
 
-def _legend(ax: Axes, colours: dict[float, str], reference: float | None) -> None:
-    handles = [Line2D([], [], color=colour, linewidth=2.2, label=f"{force:g} N") for force, colour in colours.items()][::-1]
+def _centred(trace: Trace) -> Trace:
+    """The trace without what the offset of its centre makes of the readings."""
+    part = centre_part(trace.pose, trace.measured)
+    return replace(trace, measured=trace.measured - part, predicted=trace.predicted - part)
+
+
+def _draw(ax: Axes, trace: Trace, scale: Scale, colour: str, traces: int, again: bool) -> None:
+    measured = around(trace.pose, trace.measured, scale, traces)
+    ax.plot(*measured, color=colour, linewidth=0.4 if again else 1.9, alpha=0.6 if again else 1.0, zorder=3)
+    if not again:
+        predicted = around(trace.pose, trace.predicted, scale, traces)
+        ax.plot(*predicted, color=INK, linewidth=0.7, linestyle=(0, (4, 3)), zorder=4)
+
+
+def _direct(ax: Axes, trace: Trace, scale: Scale, colour: str, sense: int) -> None:
+    """Where a trace begins, and which way it goes."""
+    r = scale.radius + scale.magnification * trace.measured
+    x, y = r * np.cos(trace.pose), r * np.sin(trace.pose)
+    outside = scale.limit * (1.02 if sense > 0 else 1.06)
+    start = 0 if (trace.pose[-1] - trace.pose[0]) * sense >= 0 else len(x) - 1
+    ax.plot([x[start]], [y[start]], marker="o", markersize=5.5, color=colour, markeredgecolor=INK, zorder=6)
+    ends = outside * np.exp(1j * (_ARROW_AT + sense * np.array([-_ARROW, _ARROW])))
+    arrow = {
+        "arrowstyle": "-|>",
+        "color": colour,
+        "linewidth": 1.8,
+        "mutation_scale": 13,
+        "connectionstyle": f"arc3,rad={0.12 * sense}",
+    }
+    ax.annotate("", xy=(ends[1].real, ends[1].imag), xytext=(ends[0].real, ends[0].imag), arrowprops=arrow, zorder=6)
+
+
+def _legend(ax: Axes, colours: dict[int, dict[float, str]], reference: float | None) -> None:
+    handles = [
+        Line2D([], [], color=colour, linewidth=2.2, label=f"{_SENSES[sense]}, {force:g} N" if force else _SENSES[sense])
+        for sense, by_force in colours.items()
+        for force, colour in list(by_force.items())[::-1]
+    ]
     handles += [
         Line2D([], [], color=INK, linewidth=0.9, linestyle=(0, (4, 2)), label="predicted"),
         Line2D([], [], color=GREY, linewidth=1.1, label="nominal circle"),
+        Line2D([], [], color=GREY, marker="o", linestyle="", markersize=5, label="start"),
     ]
-    title = "measured at" if reference is None else f"measured, over {reference:g} N"
+    title = "measured, centre removed" if reference is None else f"over {reference:g} N, centre removed"
     ax.legend(
         handles=handles,
         loc="center left",
@@ -86,20 +153,8 @@ def _legend(ax: Axes, colours: dict[float, str], reference: float | None) -> Non
         title=title,
         title_fontproperties={"weight": "bold", "size": SMALL},
         alignment="left",
-        labelspacing=0.7,
+        labelspacing=0.6,
     )
-
-
-def _draw_levels(ax: Axes, result: Identification, scale: Scale) -> dict[float, str]:
-    colours = force_colours([level.force for level in result.levels])
-    for force, colour in colours.items():
-        for trace, again in of_level(result, force):
-            measured = around(trace.pose, trace.measured, scale, len(result.traces))
-            ax.plot(*measured, color=colour, linewidth=0.4 if again else 1.9, alpha=0.6 if again else 1.0, zorder=3)
-            if not again:
-                predicted = around(trace.pose, trace.predicted, scale, len(result.traces))
-                ax.plot(*predicted, color=INK, linewidth=0.7, linestyle=(0, (4, 3)), zorder=4)
-    return colours
 
 
 def _along(result: Identification) -> Figure:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from elastogeo.estimate import Repeatability
 from elastogeo.identification import CONDITION_LIMIT, Comparison, Consistency, Identification, Level, Parameter
-from elastogeo.report.head import head
+from elastogeo.report.head import files_section, head
 from elastogeo.report.identification.budgets import budget_tables, degrees, uncertainty_table
 from elastogeo.report.identification.document import identification_json
 from elastogeo.report.identification.pictures import picture
@@ -160,6 +160,7 @@ def _sections(result: Identification) -> Iterator[Section]:
     yield _confounding(result)
     yield _method(result)
     yield Section("What to keep in mind", points=tuple(map(pretty, keep_in_mind(result))))
+    yield from files_section(result.test)
 
 
 def _uncertainty(result: Identification) -> Section:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from elastogeo.identification import StiffnessMap
-from elastogeo.report.head import head
+from elastogeo.report.head import files_section, head
 from elastogeo.report.identification.pictures import picture
 from elastogeo.report.identification.view import parameter_table, stands_for
 from elastogeo.report.numbers import pretty
@@ -69,5 +69,6 @@ def stiffness_view(found: StiffnessMap) -> View:
             Section("The drives", tables=(balance,)),
             Section("Joint parameters", pictures=(picture("contributions", found.joints),), tables=(joints,)),
             Section("Fit", pictures=(picture("traces", found.joints), picture("residuals", found.joints))),
+            *files_section(test),
         ),
     )

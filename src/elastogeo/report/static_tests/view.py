@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from elastogeo.identification.static_tests import StaticResults
-from elastogeo.report.head import head
+from elastogeo.report.head import files_section, head
 from elastogeo.report.identification.pictures import picture
 from elastogeo.report.identification.view import parameter_table, stands_for
 from elastogeo.report.static_tests.document import static_json
@@ -50,6 +50,7 @@ def static_view(found: StaticResults) -> View:
             Section("What the instrument shows", tables=tables),
             Section("Joint parameters", pictures=(picture("contributions", joints),), tables=(parameters,)),
             Section("Fit", pictures=(picture("residuals", joints),)),
+            *files_section(test),
         ),
     )
 
