@@ -56,7 +56,9 @@ def test_the_magnification_and_the_division_are_stated(rich) -> None:
     notes = [text.get_text() for text in traces.axes[0].texts]
     assert "one division = 10 µm; deviations are magnified 2000 times" in notes
     legend = [text.get_text() for text in traces.axes[0].get_legend().get_texts()]
-    assert legend == ["706 N", "580 N", "454 N", "328 N", "202 N", "76 N", "predicted", "nominal circle"]
+    levels = [f"CCW, {force} N" for force in (706, 580, 454, 328, 202, 76)]
+    assert legend == [*levels, "predicted", "nominal circle", "start"]
+    assert {"+X", "+Y", "−X", "−Y", "+10", "−10"} <= set(notes)
 
 
 def test_traces_are_drawn_where_they_were_measured(poor) -> None:

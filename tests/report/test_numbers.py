@@ -70,7 +70,8 @@ def test_significant(value: float, digits: int, text: str) -> None:
         ("mm", 0.0, "mm", 1.0),
         ("mm/N", float("nan"), "mm/N", 1.0),
         ("mm/N", 1e-30, "fm/N", 1e12),
-        ("s", 0.5, "s", 1.0),
+        ("s", 2.5, "s", 1.0),
+        ("s", 3e-4, "µs", 1e6),
     ],
 )
 def test_display_unit(unit: str, magnitude: float, name: str, factor: float) -> None:

@@ -492,6 +492,7 @@ def _parameters(systems: Systems, found: Confounding, solution: Solution, budget
             share=float(abs(spans[k])) / total,
             axis=by_name[name].site[1],
             elastic=by_name[name].elastic,
+            sign=by_name[name].sign,
             separated=len({by_name[other].elastic for other in found.stands_for(name)}) == 1,
         )
         for k, name in enumerate(solution.labels)

@@ -15,6 +15,7 @@ from elastogeo.identification.physics import Consistency
 from elastogeo.machine import Array
 from elastogeo.observe import MachineTest
 from elastogeo.result import Part, Result
+from elastogeo.sources import Sign
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -40,6 +41,8 @@ class Parameter(Part):
         Whether a load drives it.
     separated : bool
         Whether what it stands for is all elastic or all geometric. If not, no name is right: the test cannot tell.
+    sign : Sign or None
+        What the sign of its value means for the axis.
     """
 
     name: str
@@ -53,6 +56,7 @@ class Parameter(Part):
     axis: str
     elastic: bool
     separated: bool
+    sign: Sign | None = None
 
     @property
     def value(self) -> float:

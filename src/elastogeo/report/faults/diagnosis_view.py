@@ -43,16 +43,23 @@ def diagnosis_view(diagnosis: Diagnosis) -> View:
         head=head(test),
         sentence=_answer(diagnosis),
         values=tuple(
-            KeyValue(row.meaning, pretty(row.value), row.unit, f"{row.share_percent} % of all faults") for row in top
+            KeyValue(row.meaning, pretty(row.value), row.unit, row.sentence or f"{row.share_percent} % of all faults")
+            for row in top
         ),
         picture=picture("traces", result),
         checks=said(result.verdict),
         document=document,
         rows=document["faults"],
         tables=(fault_table(diagnosis), *circular_tables(diagnosis.circularity)),
-        notes=(*also, *([untold] if untold else [])),
+        notes=(*(f"{row.sentence}." for row in rows if row.sentence), *also, *([untold] if untold else [])),
         sections=(
-            Section("Faults, ranked", pictures=(ranking,), tables=(fault_table(diagnosis),), points=also, note=untold),
+            Section(
+                "Faults, ranked",
+                pictures=(ranking,),
+                tables=(fault_table(diagnosis),),
+                points=(*(f"{row.sentence}." for row in rows if row.sentence), *also),
+                note=untold,
+            ),
             Section("Circular deviations after ISO 230-4", tables=circular_tables(diagnosis.circularity)),
             Section("Residuals", pictures=(picture("residuals", result),)),
             *files_section(test),

@@ -9,6 +9,7 @@ import numpy as np
 from elastogeo.estimate import coverage_factor
 from elastogeo.identification import SIGNIFICANT, BeforeAfter, Diagnosis, Difference, Fault, Identification, WhatIf
 from elastogeo.report.numbers import DisplayUnit, display_unit, probability, significant, value_with_uncertainty
+from elastogeo.report.signs import sign_sentence
 from elastogeo.report.text import UM, UNTOLD, in_micrometres, label, shared_units
 
 YES, NO = "yes", "no"
@@ -34,6 +35,8 @@ class DiagnosisRow:
         `yes` if the 95 % interval excludes zero, else `no`.
     also : str
         What this test cannot tell from it; empty if nothing.
+    sentence : str
+        What its value means for the axis: `X falls 6.0 µm short when it reverses`; empty where there is no such sentence.
     """
 
     rank: str
@@ -46,6 +49,7 @@ class DiagnosisRow:
     share_percent: str
     significant: str
     also: str
+    sentence: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,9 +149,17 @@ def diagnosis_rows(diagnosis: Diagnosis) -> tuple[DiagnosisRow, ...]:
                 share_percent=f"{100 * fault.share:.1f}" if fault in machine else "",
                 significant=YES if fault.significant else NO,
                 also=", ".join(shown.also),
+                sentence=_sentence(fault, result),
             )
         )
     return tuple(rows)
+
+
+def _sentence(fault: Fault, result: Identification) -> str:
+    """What the value of a fault means for its axis, where it is significant."""
+    signs = [p.sign for p in result.parameters if p.name in fault.names and p.separated]
+    known = len(fault.names) == 1 and fault.significant and signs and signs[0] is not None
+    return sign_sentence(signs[0], fault.value, fault.unit) if known and signs[0] else ""
 
 
 def comparison_rows(before_after: BeforeAfter) -> tuple[ComparisonRow, ...]:
