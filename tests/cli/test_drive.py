@@ -59,7 +59,7 @@ def test_logs_become_tables_and_a_verdict(run: Run, logs: list[Path]) -> None:
         "inertia",
         "A s²/mm",
         "all other runs",
-        "identifiable: All 4 parameters",
+        "terms distinguished: All 4 parameters",
     ):
         assert words in out
 

@@ -18,6 +18,10 @@ def drive(
     held_out: Annotated[
         list[str] | None, typer.Option("--held-out", help="Run that is predicted only; may be repeated.")
     ] = None,
+    model: Annotated[
+        list[str] | None,
+        typer.Option("--model", metavar="[AXIS=]NAME", help="Model whose parameters come first; may be repeated by axis."),
+    ] = None,
     compare: Annotated[bool, typer.Option(help="Compare richer models on left-out runs.")] = True,
     report: Report = None,
     as_json: AsJson = False,
@@ -25,7 +29,8 @@ def drive(
     """Identify the torque balance of feed drives: inertia, friction, constant, loads.
 
     A log names its channels current_x, position_x (velocity_x, acceleration_x) with their units; a drive file says it for
-    logs that do not. Every run is predicted from all others, and models of the friction are compared by that.
+    logs that do not. Every run is predicted from all others, models of the friction are compared by that, and the parameters
+    of the one that the runs support come first, axis by axis.
 
     \b
     Example:
@@ -40,5 +45,6 @@ def drive(
     with screen.progress("reading the logs", quiet=as_json) as step:
         test = read_drives(logs, tuple(axis or ()), tuple(held_out or ()))
         step("identifying the drives")
-        result = identify_drives(test if compare else replace(test, compare=False))
+        wanted = dict(entry.rpartition("=")[::2] for entry in model or ())
+        result = identify_drives(replace(test, compare=compare and test.compare, models={**test.models, **wanted}))
     screen.show(result, report, as_json)

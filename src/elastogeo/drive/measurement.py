@@ -34,6 +34,9 @@ class DriveTest:
         Runs that are predicted only.
     compare : bool
         Whether richer models are compared.
+    models : mapping of str to str
+        Name of the model that is to be shown, by axis; by an empty name for all axes. Without one, it is that which the runs
+        support.
     notes : tuple of str
         What was done to the logs.
     simulated : str
@@ -48,6 +51,7 @@ class DriveTest:
     known: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     held_out: tuple[str, ...] = ()
     compare: bool = True
+    models: Mapping[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     simulated: str = ""
 
@@ -61,6 +65,9 @@ class DriveTest:
             raise InputError(f"the run {strangers[0]!r} is to be held out, but there are {', '.join(runs)}")
         if set(self.held_out) >= set(runs):
             raise InputError("all runs are to be held out; leave some to identify the drives from")
+        modelled = [axis for axis in self.models if axis and axis not in self.axes]
+        if modelled:
+            raise InputError(f"a model of axis {modelled[0]} is asked for, but there are records of {', '.join(self.axes)}")
         unknown = [axis for axis in self.known if axis not in self.axes]
         if unknown:
             raise InputError(f"a parameter of axis {unknown[0]} is known, but there are records of {', '.join(self.axes)}")

@@ -2,7 +2,8 @@
 
 Variable projection: for trial values of the smooth speed, the Stribeck speed and the delay, the linear part is solved
 exactly; what is searched is the residual that it leaves. A coarse lattice first, then ever smaller steps about its best.
-Speeds are searched by ratio, the delay by difference.
+Speeds are searched by ratio, the delay by difference. The steps keep to one lattice, so that the searches without each run
+(`leave_one_run_out`) meet at the same points and share their factors; the minimisers of scipy.optimize would not.
 
 A fractional delay interpolates the motion between its samples, never the effort: a smoothed effort would be easier to
 predict, and the comparison would flatter the delay. Interpolated motion is averaged motion all the same; `neighbours`

@@ -22,7 +22,8 @@ NOISE = 8.0
 """Range of a window over the standard deviation of its noise, up to which the axis stands in it."""
 
 TURNS = 3
-"""Changes of sign within two windows: a motion would have to oscillate above the band of the record."""
+"""Changes of sign within two windows of a low-pass, or one where there is none: no motion in the band of the record turns
+back so often."""
 
 LASTING = 2.0
 """Windows that a rest lasts at least."""
@@ -50,7 +51,7 @@ class Standstill:
     speed: float
 
 
-def standing(time: Array, path: Array, velocity: Array, window: int) -> NDArray[np.bool_]:
+def standing(time: Array, path: Array, velocity: Array, window: int, turning: int | None = None) -> NDArray[np.bool_]:
     """Whether the axis stands, shape (m,).
 
     Parameters
@@ -62,6 +63,8 @@ def standing(time: Array, path: Array, velocity: Array, window: int) -> NDArray[
         Whose signs are to be trusted or not.
     window : int
         Samples.
+    turning : int, optional
+        Samples on either side within which the changes of sign count; default the window.
     """
     if len(time) < 2 * window + 4:
         return np.zeros(len(time), dtype=bool)
@@ -69,7 +72,9 @@ def standing(time: Array, path: Array, velocity: Array, window: int) -> NDArray[
 
     span = maximum_filter1d(path, window) - minimum_filter1d(path, window)
     still = span <= _rest_span(path)
-    return _lasting(_widened(still, window // 2) | _trembles(velocity, window), int(LASTING * window))
+    trembles = _widened(_trembles(velocity, turning or window), window // 2)
+    trembles = ~_widened(~trembles, window // 2)  # without the gaps that chance leaves between changes of sign
+    return _lasting(_widened(still, window // 2) | trembles, int(LASTING * window))
 
 
 def standstill(record: DriveRecord) -> Standstill:
@@ -78,8 +83,8 @@ def standstill(record: DriveRecord) -> Standstill:
     still = record.standing
     if still is None:
         steps = np.diff(record.time) * (record.velocity[1:] + record.velocity[:-1]) / 2
-        still = standing(record.time, np.concatenate([[0.0], np.cumsum(steps)]), record.velocity, window)
-    settled = window if record.cutoff is not None else 1
+        still = standing(record.time, np.concatenate([[0.0], np.cumsum(steps)]), record.velocity, window, window // 2)
+    settled = 0 if record.cutoff is None else window
     deep = ~_widened(~still, settled)
     speed = float(np.quantile(np.abs(record.velocity[deep]), SHOWN)) if bool(deep.any()) else 0.0
     return Standstill(_widened(still, settled) if still.any() else still, speed)

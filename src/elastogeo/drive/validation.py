@@ -135,6 +135,7 @@ def leave_one_run_out(
     known: Mapping[str, float] | None = None,
     chosen: Sequence[Mask] | None = None,
     search: Search | None = None,
+    judged: Sequence[Mask] | None = None,
 ) -> LeftOut:
     """Predict every run from all others; what is searched is searched again without it.
 
@@ -142,6 +143,8 @@ def leave_one_run_out(
     ----------
     records, model, searched, known, chosen, search
         As in `search_balance`.
+    judged : sequence of array of bool, shape (m,), optional
+        Samples of each record that are predicted; default those that are identified from.
 
     Raises
     ------
@@ -167,8 +170,8 @@ def leave_one_run_out(
         rest = merge(*(factors[n] for n in others))
         if confounding(rest, tolerance=COLLINEAR).rank < len(labels):
             raise RankError(f"axis {record.axis}: without run {record.run} the others do not determine all parameters")
-        rows = design_rows(records, law, known, masks)[k]
-        effort = record.effort[masks[k]]
+        rows = design_rows(records, law, known, judged or masks)[k]
+        effort = record.effort[(judged or masks)[k]]
         # The last column is the effort less its known part.
         scores.append(_score(record.run, effort, rows[:, :-1] @ solve(rest, labels).values + effort - rows[:, -1]))
     names = made.ranges.names if made else ()

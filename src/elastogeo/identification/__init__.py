@@ -9,7 +9,8 @@ from elastogeo.identification.faults.circularity import Circularity, circularity
 from elastogeo.identification.faults.comparison import BeforeAfter, Difference, compare
 from elastogeo.identification.faults.diagnosis import Diagnosis, Fault, diagnose
 from elastogeo.identification.faults.what_if import WhatIf, what_if
-from elastogeo.identification.feed_drives.axis_drives import AxisDrive, DriveIdentification, identify_drives
+from elastogeo.identification.feed_drives.axis_drives import identify_drives
+from elastogeo.identification.feed_drives.result import AxisDrive, DriveIdentification
 from elastogeo.identification.fit import Harmonic, fitness, rmse, strongest_harmonic
 from elastogeo.identification.identification import (
     adjacent,

@@ -80,6 +80,14 @@ class KnownDocument:
 
 
 @dataclass(frozen=True, slots=True)
+class ShownDocument:
+    """One entry of the table `models`: the model whose parameters come first; without an axis, of all axes."""
+
+    name: str
+    axis: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class DriveDocument:
     """What a drive file says."""
 
@@ -94,6 +102,7 @@ class DriveDocument:
     known: tuple[KnownDocument, ...] = ()
     loads: tuple[LoadDocument, ...] = ()
     held_out: tuple[str, ...] = ()
+    models: tuple[ShownDocument, ...] = ()
     simulated: str = ""
 
 
@@ -166,6 +175,7 @@ def _test(
         searched=told.search,
         held_out=tuple(dict.fromkeys((*document.held_out, *held_out))),
         compare=told.compare,
+        models={shown.axis: shown.name for shown in document.models},
         notes=tuple(f"{', '.join(of) if len(of) < len(logs) else EVERY_LOG}: {said}" for said, of in notes.items()),
         simulated=document.simulated,
     )

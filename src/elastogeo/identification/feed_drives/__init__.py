@@ -3,18 +3,25 @@
 Stands on the files of `identification` and on `drive`.
 """
 
-from elastogeo.identification.feed_drives.axis_drives import (
+from elastogeo.identification.feed_drives.axis_drives import identify_drives
+from elastogeo.identification.feed_drives.models import CANDIDATES, rmse_of
+from elastogeo.identification.feed_drives.result import (
+    LEFT_OUT,
     AxisDrive,
     DriveIdentification,
     DriveParameter,
     ModelScore,
-    identify_drives,
+    Rest,
 )
 
 __all__ = [
+    "CANDIDATES",
+    "LEFT_OUT",
     "AxisDrive",
     "DriveIdentification",
     "DriveParameter",
     "ModelScore",
+    "Rest",
     "identify_drives",
+    "rmse_of",
 ]

@@ -4,6 +4,7 @@ test : {name, simulated, runs, held_out, axes, notes}
 axes : one entry per axis:
     axis, effort_unit
     refusal : why it cannot be identified; empty if it can
+    shown : name of the model whose parameters follow
     model : {terms, least_speed_mm_s, smooth_speed_mm_s, stribeck_speed_mm_s, delay_s, neighbours}; speeds in rad/s of a
         rotary axis; a least speed of null is that of the noise which each record shows at rest
     samples : {run: number used}; left_out : how many were too slow or without a motion
@@ -17,7 +18,8 @@ axes : one entry per axis:
     rmse, r2 : over the identified runs
     identified, held_out, left_out_runs : [{run, samples, rmse, r2}]; `left_out_rmse` over all of the last
     models : [{name, terms, parameters, searched, rmse, left_out_rmse, gain_percent, better, impossible, left_out_runs,
-        searched_without_run}]; of the error of left-out runs against the first
+        held_out, searched_without_run}]; of the error of left-out runs against the first; `parameters` as above
+    rest : {share, used, speed_mm_s, left_out_rmse, kept_rmse}, of the samples at standstill; or null
     supported : name of the model that the runs support; not_compared : {name: why not}
     residuals : {autocorrelation, apart [s], limit, forward, backward, slow, fast, rms, flips}
     verdict : as in `envelope`
@@ -31,7 +33,7 @@ from dataclasses import asdict
 from typing import Any
 
 from elastogeo.drive import BalanceFit, RunScore, Searched
-from elastogeo.identification.feed_drives import AxisDrive, DriveIdentification, DriveParameter, ModelScore
+from elastogeo.identification.feed_drives import AxisDrive, DriveIdentification, DriveParameter, ModelScore, Rest
 from elastogeo.report.document import document, verdict_entries
 
 DRIVE_SCHEMA = "elastogeo.drive/1"
@@ -62,6 +64,7 @@ def _axis(axis: AxisDrive) -> dict[str, Any]:
         "axis": axis.axis,
         "effort_unit": axis.effort_unit,
         "refusal": axis.refusal,
+        "shown": axis.model,
         **({} if axis.fit is None else _fit(axis.fit)),
         "parameters": [_parameter(parameter) for parameter in axis.parameters],
         "identified": _scores(axis.identified),
@@ -71,6 +74,7 @@ def _axis(axis: AxisDrive) -> dict[str, Any]:
         "models": [_model(model) for model in axis.models],
         "supported": axis.supported,
         "not_compared": axis.not_compared,
+        "rest": None if axis.rest is None else _rest(axis.rest),
         "residuals": asdict(axis.structure) if axis.structure else None,
         "verdict": verdict_entries(axis.verdict),
     }
@@ -99,6 +103,16 @@ def _fit(fit: BalanceFit) -> dict[str, Any]:
         "condition_scaled": found.condition_scaled,
         "rmse": fit.rmse,
         "r2": fit.r2,
+    }
+
+
+def _rest(rest: Rest) -> dict[str, Any]:
+    return {
+        "share": rest.share,
+        "used": rest.used,
+        "speed_mm_s": rest.speed,
+        "left_out_rmse": rest.left_out,
+        "kept_rmse": rest.kept,
     }
 
 
@@ -132,7 +146,7 @@ def _model(model: ModelScore) -> dict[str, Any]:
     return {
         "name": model.name,
         "terms": model.fit.model.terms,
-        "parameters": dict(zip(model.fit.solution.labels, model.fit.solution.values, strict=True)),
+        "parameters": [_parameter(parameter) for parameter in model.parameters],
         "searched": _searched(model.fit.searched),
         "rmse": model.fit.rmse,
         "left_out_rmse": model.left_out.rmse,
@@ -140,5 +154,6 @@ def _model(model: ModelScore) -> dict[str, Any]:
         "better": model.better,
         "impossible": model.impossible,
         "left_out_runs": _scores(model.left_out.scores),
+        "held_out": _scores(model.held_out),
         "searched_without_run": model.left_out.searched,
     }

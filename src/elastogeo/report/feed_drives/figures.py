@@ -58,11 +58,9 @@ def drive_figures(result: DriveIdentification) -> dict[str, Figure]:
 
 
 def _shown(found: AxisDrive) -> dict[str, BalanceFit]:
-    """The model that was asked for, and the one that the runs support, by name."""
-    fits = {} if found.fit is None else {"the model asked for": found.fit}
-    if found.models and found.supported != found.models[0].name:
-        fits[found.supported] = next(model.fit for model in found.models if model.name == found.supported)
-    return fits
+    """The first of the compared models, and the one that is shown, by name."""
+    fits = {found.models[0].name: found.models[0].fit} if found.models else {}
+    return fits if found.fit is None else {**fits, found.model: found.fit}
 
 
 def _friction(ax: Axes, found: AxisDrive, records: Sequence[DriveRecord]) -> None:

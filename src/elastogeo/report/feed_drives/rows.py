@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from elastogeo.drive import EVERY_LOG, RunScore, Searched
-from elastogeo.identification.feed_drives import AxisDrive, DriveIdentification
+from elastogeo.identification.feed_drives import AxisDrive, DriveIdentification, rmse_of
 from elastogeo.report.numbers import significant, value_with_uncertainty, written_unit
 from elastogeo.report.text import combination
 
@@ -46,6 +46,7 @@ class ModelRow:
     searched: str
     rmse: str
     left_out: str
+    held_out: str
     gain_percent: str
     better: str
 
@@ -86,6 +87,7 @@ def model_rows(axis: AxisDrive) -> tuple[ModelRow, ...]:
             searched=", ".join(map(searched_words, model.fit.searched)),
             rmse=significant(model.fit.rmse, 4),
             left_out=significant(model.left_out.rmse, 4),
+            held_out="" if rmse_of(model.held_out) is None else significant(rmse_of(model.held_out) or 0.0, 4),
             gain_percent=f"{100 * model.gain:.1f}" if k else "",
             better=_better(model.better, model.impossible) if k else "",
         )
@@ -112,7 +114,14 @@ def samples_sentence(axis: AxisDrive) -> str:
     if axis.fit is None:
         return ""
     used = sum(axis.fit.samples.values())
-    return f"{used} samples of {len(axis.fit.samples)} runs, {axis.fit.left_out} left out as too slow or without a motion"
+    left = f"{axis.fit.left_out} left out as at rest, too slow or without a motion"
+    return f"Model {axis.model}{_standing(axis)}: {used} samples of {len(axis.fit.samples)} runs, {left}"
+
+
+def _standing(axis: AxisDrive) -> str:
+    if not axis.supported:
+        return ""
+    return ", which the runs support" if axis.supported == axis.model else f"; the runs support {axis.supported}"
 
 
 def note_sentences(result: DriveIdentification) -> list[str]:

@@ -80,12 +80,12 @@ def _tables(axis: AxisDrive) -> tuple[Table, ...]:
         tables.append(Table(headings, scores, words=(0, 4), title=f"Axis {axis.axis}, runs", note=note))
     if axis.models:
         models = tuple(
-            (r.name, r.parameters, r.searched, r.rmse, r.left_out, pretty(r.gain_percent), r.better)
+            (r.name, r.parameters, r.searched, r.rmse, r.left_out, r.held_out, pretty(r.gain_percent), r.better)
             for r in model_rows(axis)
         )
-        heads = ("model", "parameters", "searched", "RMSE", "left-out runs", "gain [%]", "surely better")
-        note = "* what the runs support: of models without an impossible value, the simplest that none surely beats"
-        tables.append(Table(heads, models, words=(0, 2, 6), title=f"Axis {axis.axis}, models", note=note))
+        heads = ("model", "parameters", "searched", "RMSE", "left-out runs", "held-out runs", "gain [%]", "surely better")
+        note = "* what the runs support: of possible models, the simplest that none surely beats. Another: --model NAME"
+        tables.append(Table(heads, models, words=(0, 2, 7), title=f"Axis {axis.axis}, models", note=note))
     return tuple(tables)
 
 
