@@ -14,7 +14,7 @@ myst_heading_anchors = 3
 
 exclude_patterns = ["_build"]
 
-READ_FIRST = ["conventions", "tutorial", "theory", "cli"]
+READ_FIRST = ["tutorial", "ball-bar", "conventions", "theory", "api", "cli"]
 
 html_theme = "furo"
 html_title = f"elastogeo {release}"

@@ -13,7 +13,7 @@ import elastogeo as eg
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
-PAGES = ("tutorial.md", "drive.md", "ball-roller.md", "static.md")
+PAGES = ("tutorial.md", "drive.md", "ball-roller.md", "static.md", "ball-bar.md")
 
 
 @pytest.mark.parametrize("page", PAGES)
@@ -46,10 +46,33 @@ def test_tutorials_use_the_public_face_only():
     assert used <= set(eg.__all__)
 
 
+def script(name):
+    """A script of the folder docs, as a module."""
+    spec = importlib.util.spec_from_file_location(name, DOCS / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("page", ["api.md", "extending.md"])
+def test_the_pages_made_from_docstrings_are_those_of_the_program(page):
+    made = script("make_reference")
+    assert (DOCS / page).read_text(encoding="utf-8") == made.PAGES[page](), "run: python docs/make_reference.py"
+
+
+def test_the_page_of_the_public_face_has_every_name():
+    grouped = [name for names in script("make_reference").GROUPS.values() for name in names]
+    assert sorted(grouped) == sorted(set(eg.__all__) - {"__version__"})
+
+
+def test_every_page_is_reached_from_the_index_as_a_plain_file():
+    linked = set(re.findall(r"\]\((\w[\w/-]*\.md)\)", (DOCS / "index.md").read_text(encoding="utf-8")))
+    pages = {path.name for path in DOCS.glob("*.md")} - {"index.md"}
+    assert linked == pages | {"decisions/README.md"}
+
+
 def test_the_reference_of_the_command_line_is_that_of_the_commands():
-    spec = importlib.util.spec_from_file_location("make_cli", DOCS / "make_cli.py")
-    make_cli = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(make_cli)
+    make_cli = script("make_cli")
     from elastogeo.cli.app import app
 
     commands = {command.callback.__name__ for command in app.registered_commands}
