@@ -1,14 +1,20 @@
+import contextlib
+import inspect
 import io
 import logging
 import random
 import struct
 import sys
 import tracemalloc
+from pathlib import Path
 from typing import Any
 
 import nptdms
 import numpy as np
 import pytest
+from nptdms.test import test_daqmx
+from nptdms.test.test_daqmx import daqmx_channel_metadata, daqmx_scaler_metadata, segment_toc
+from nptdms.test.util import GeneratedFile, root_metadata, segment_objects_metadata
 
 from elastogeo.errors import FormatError
 from elastogeo.formats.log_files import log_formats, read_log_bytes
@@ -83,7 +89,7 @@ def test_what_a_channel_does_not_have_is_noted() -> None:
     log = read_tdms(
         file(
             [
-                channel("a", np.array([1.0, np.nan, np.inf]), unit_string="Volts", **CLOCK),
+                channel("a", np.array([1.0, np.nan, np.inf]), unit_string="Furlongs", **CLOCK),
                 channel("b", np.array([1.0, 2.0])),
                 channel("c", np.array([1.0, 2.0]), wf_increment=5.0, wf_xunit_string="Hz"),
                 channel("t", ["x", "y"]),
@@ -103,7 +109,7 @@ def test_what_a_channel_does_not_have_is_noted() -> None:
         "drive/b: keeps no clock, because it has no sample time (wf_increment)",
         "drive/c: keeps no clock, because its steps are in 'Hz', not in s",
         "drive/a: 1 infinite values are NaN",
-        "drive/a: its unit 'Volts' is not known, so it has none",
+        "drive/a: its unit 'Furlongs' is not known, so it has none",
     )
 
 
@@ -216,3 +222,97 @@ def test_only_data_files_are_claimed_and_the_sample_is_always_the_same() -> None
     assert can_read(GOOD)
     assert not can_read(b"TDSh" + GOOD[4:])
     assert log_formats()["TDMS"].sample() == log_formats()["TDMS"].sample()
+
+
+def of_the_library() -> dict[str, bytes]:
+    """The files of npTDMS itself: four of LabVIEW and DAQmx, and all that its tests of DAQmx build."""
+    folder = Path(nptdms.__file__).parent / "test" / "data"
+    files = {path.name: path.read_bytes() for path in sorted(folder.glob("*.tdms"))}
+    built: list[bytes] = []
+
+    def kept(self: Any, *_args: Any, **_more: Any) -> None:
+        file = self._get_contents() if hasattr(self, "_get_contents") else None
+        if file is None:
+            with self.get_tempfile() as temporary:
+                file = Path(temporary.name).read_bytes()
+        built.append(file)
+        raise StopIteration
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(GeneratedFile, "load", kept)
+        for name, function in vars(test_daqmx).items():
+            if name.startswith("test_") and not inspect.signature(function).parameters:
+                with contextlib.suppress(StopIteration, pytest.fail.Exception):
+                    function()
+                files |= {f"{name} {k}": file for k, file in enumerate(built)}
+                built.clear()
+    return files
+
+
+LIBRARY = of_the_library()
+UNFIT = ("test_incomplete_segment", "test_exception_on", "test_large_daqmx", "test_multiple_scalers")
+UNFIT += ("test_multiple_raw_data_buffers_with_scalers_split",)
+"""Cut off, wrong on purpose, or several raw counts in a channel and no scale that makes one number of them."""
+
+
+def fits(name: str) -> bool:
+    return not name.startswith(UNFIT)
+
+
+@pytest.mark.parametrize("name", sorted(filter(fits, LIBRARY)))
+def test_the_samples_of_the_library_read_as_it_reads_them(name: str) -> None:
+    library = nptdms.TdmsFile.read(io.BytesIO(LIBRARY[name]))
+    log = read_tdms(LIBRARY[name], "f")
+    assert len(log.channels) >= 1
+    for group in library.groups():
+        for channel in group.channels():
+            if f"{group.name}/{channel.name}" in log.channels:
+                counts = channel.raw_scaler_data
+                whole = channel.raw_data if counts and len(counts) == 1 and "no scale" in str(log.notes) else channel[:]
+                expected = np.asarray(whole, dtype=np.float64)
+                np.testing.assert_array_equal(log.channels[f"{group.name}/{channel.name}"].values, expected)
+
+
+def test_a_known_sample_of_daqmx_has_the_values_that_its_maker_states() -> None:
+    channel = read_tdms(LIBRARY["raw1.tdms"], "f").channels["Layer Data/First  Channel"]
+    assert channel.unit == "V"
+    assert channel.values[:4] == pytest.approx([-0.18402661, 0.14801477, -0.24506363, -0.29725028], abs=1e-8)
+
+
+def test_a_cut_off_file_of_daqmx_is_refused_and_never_filled_up() -> None:
+    data = LIBRARY["raw1.tdms"]
+    whole = read_tdms(data, "f")
+    for end in range(len(data) - 1, 0, -97):
+        with pytest.raises(FormatError, match=r"^f: (no TDMS segment begins|the segment at byte|the data of|holds no)"):
+            read_tdms(data[:end], "f")
+    assert {len(channel.values) for channel in whole.channels.values()} == {2000}
+
+
+def test_changed_bits_of_daqmx_give_a_log_or_a_format_error() -> None:
+    rng = random.Random(11)
+    for name in (
+        "test_two_channel_i16 0",
+        "test_multiple_raw_data_buffers_with_different_lengths 0",
+        "test_digital_line_scaler_data 0",
+    ):
+        for _ in range(150):
+            data = bytearray(LIBRARY[name])
+            for _ in range(rng.randint(1, 3)):
+                data[rng.randrange(len(data))] ^= 1 << rng.randrange(8)
+            try:
+                said = read_tdms(bytes(data), "f").source
+            except FormatError as error:
+                said = str(error)
+            assert said.startswith("f")
+
+
+def test_many_channels_that_share_a_few_bytes_are_refused() -> None:
+    width, count = 4096, 3000
+    scalers = [daqmx_scaler_metadata(0, 0, 0)]
+    channels = [daqmx_channel_metadata(f"c{k}", width, [1], scalers) for k in range(count)]
+    made = GeneratedFile()
+    made.add_segment(segment_toc(), segment_objects_metadata(root_metadata(), *channels), "00" * width)
+    with made.get_tempfile() as temporary:
+        data = Path(temporary.name).read_bytes()
+    with pytest.raises(FormatError, match=f"its channels claim {width * count} values in {len(data)} bytes"):
+        read_tdms(data, "f")

@@ -4,7 +4,8 @@ The layout of lead-ins, segments and properties is that of npTDMS's own reader a
 library gives what is left, some channels shorter than others, and only logs a warning. So each segment's lead-in is checked
 first: segments must follow one another to the last byte of the file; and after its metadata are read, the data of each must
 be whole chunks. Otherwise, or if the library logs any warning, the file is refused. Nothing in a TDMS file is compressed;
-the number of pieces (segments, chunks, objects) is capped by the file's size, so that a small file cannot cost much.
+the number of pieces (segments, chunks, objects) and of values is capped by the file's size, so that a small file cannot cost
+much. Files of DAQmx, whose channels share the bytes of a raw buffer, are read by the same checks.
 
 A channel is named `group/channel`. Its unit is the property `unit_string`, if that is a known spelling. Its clock is made
 of `wf_start_time`, `wf_start_offset` and `wf_increment` [s]; without an increment, or where `wf_xunit_string` is not a
@@ -39,6 +40,15 @@ _META, _NEW, _BIG = 1 << 1, 1 << 2, 1 << 6
 _LEAST = 2000
 _BYTES_PER_OBJECT = 10
 _BYTES_PER_PIECE = 50
+_LEAST_VALUES = 1_000_000
+_KINDS = {
+    **dict.fromkeys("OUS", "text"),
+    "M": "time stamps",
+    "c": "complex numbers",
+    "V": "raw counts without a scale",
+}
+_WRITTEN_OUT = {"volts": "V", "amps": "A", "amperes": "A", "newtons": "N", "degrees": "deg", "seconds": "s"}
+"""Units as LabVIEW writes them."""
 
 
 def can_read(head: bytes) -> bool:
@@ -137,7 +147,7 @@ def _check_segments(data: bytes, source: str) -> None:
 def _check_data(file: Any, size: int, source: str) -> None:
     """Check that the data of each segment are whole chunks, and that there are not too many of them."""
     channels = sum(len(group.channels()) for group in file.groups())
-    pieces = 0
+    pieces = values = 0
     for segment in file._reader._segments:
         objects = [o for o in segment.ordered_objects if o.has_data]
         pieces += segment.num_chunks * max(channels, len(objects))
@@ -146,10 +156,17 @@ def _check_data(file: Any, size: int, source: str) -> None:
                 f"{source}: the data of the segment at byte {segment.position} are not whole; the file is cut off or "
                 "damaged; copy it again"
             )
-        if any(o.data_type.size is None and 4 * o.number_values > o.data_size for o in objects if o.data_size is not None):
+        values += segment.num_chunks * sum(o.number_values for o in objects)
+        texts = [o for o in objects if o.data_type.size is None and getattr(o, "daqmx_metadata", None) is None]
+        if any(4 * o.number_values > o.data_size for o in texts if o.data_size is not None):
             raise FormatError(
                 f"{source}: a text channel claims more texts than it has bytes; the file is damaged; copy it again"
             )
+    if values > _LEAST_VALUES + size:
+        raise FormatError(
+            f"{source}: its channels claim {values} values in {size} bytes; the file is damaged, or holds many digital "
+            f"lines: save the channels that you need to a file of their own"
+        )
     if pieces > _LEAST + size // _BYTES_PER_PIECE:
         raise FormatError(
             f"{source}: its data are in {pieces} pieces, too many for {size} bytes; save it again, defragmented"
@@ -168,9 +185,12 @@ def _arrays(file: Any, source: str) -> tuple[dict[str, Array], dict[str, Mapping
             while name in arrays:
                 name += "'"
             kind = np.dtype(channel.dtype)
-            if kind.kind not in "biuf" or kind.itemsize > 8:
+            if _is_count(channel):
+                notes.append(f"{name}: raw counts of its converter, because the file says no scale")
+            elif kind.kind not in "biuf" or kind.itemsize > 8:
                 notes.append(f"{name}: left out, because it holds {_kind(kind)}")
-            elif not len(channel):
+                continue
+            if not len(channel):
                 notes.append(f"{name}: left out, because it is empty")
             else:
                 names[group.name, channel.name] = name
@@ -181,11 +201,24 @@ def _arrays(file: Any, source: str) -> tuple[dict[str, Array], dict[str, Mapping
         for (group_name, channel_name), name in names.items():
             part = chunk[group_name][channel_name]
             if len(part):
-                arrays[name][filled[name] : filled[name] + len(part)] = _floats(part[:], name, source)
+                arrays[name][filled[name] : filled[name] + len(part)] = _floats(_numbers(part), name, source)
                 filled[name] += len(part)
     if any(filled[name] != len(values) for name, values in arrays.items()):
         raise _damaged(source, "fewer samples arrived than its segments promise")
     return arrays, about, notes
+
+
+def _is_count(channel: Any) -> bool:
+    """Whether a channel of DAQmx holds the counts of one converter and no scale for them."""
+    return channel._scaling is None and len(channel.scaler_data_types or ()) == 1
+
+
+def _numbers(part: Any) -> NDArray[Any]:
+    """The values of a piece of a channel; of DAQmx without a scale, its counts."""
+    counts = part._raw_data.scaler_data
+    if counts and part._channel._scaling is None:
+        return np.asarray(next(iter(counts.values())))
+    return np.asarray(part[:])
 
 
 def _floats(part: NDArray[Any], name: str, source: str) -> Array:
@@ -197,7 +230,7 @@ def _floats(part: NDArray[Any], name: str, source: str) -> Array:
 
 
 def _kind(kind: np.dtype[Any]) -> str:
-    return {"O": "text", "U": "text", "S": "text", "M": "time stamps", "c": "complex numbers"}.get(kind.kind, f"{kind} data")
+    return _KINDS.get(kind.kind, f"{kind} data")
 
 
 def _clocks(
@@ -239,6 +272,7 @@ def _clocks(
 
 def _unit(properties: Mapping[str, Any], name: str, notes: list[str]) -> str:
     unit = str(properties.get("unit_string", "")).strip()
+    unit = _WRITTEN_OUT.get(unit.lower(), unit)
     if unit in UNITS or not unit:
         return unit
     notes.append(f"{name}: its unit {unit[:40]!r} is not known, so it has none")
