@@ -19,7 +19,7 @@ import contextlib
 import importlib
 import io
 import logging
-import struct
+import re
 import threading
 from collections.abc import Iterator, Mapping
 from types import ModuleType
@@ -31,16 +31,14 @@ from numpy.typing import NDArray
 from elastogeo.errors import FormatError
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, register
+from elastogeo.formats.logs.tdms_metadata import LEAST, TAG, check_segments
 from elastogeo.formats.text.units import UNITS
 from elastogeo.machine import Array
 
-_TAG = b"TDSm"
-_LEAD = 28
-_META, _NEW, _BIG = 1 << 1, 1 << 2, 1 << 6
-_LEAST = 2000
-_BYTES_PER_OBJECT = 10
 _BYTES_PER_PIECE = 50
 _LEAST_VALUES = 1_000_000
+_SCALES = "NI_Number_Of_Scales"
+_SCALE = re.compile(r"NI_Scale\[(\d{1,19})\]")
 _KINDS = {
     **dict.fromkeys("OUS", "text"),
     "M": "time stamps",
@@ -53,7 +51,7 @@ _WRITTEN_OUT = {"volts": "V", "amps": "A", "amperes": "A", "newtons": "N", "degr
 
 def can_read(head: bytes) -> bool:
     """Whether a file that begins with these bytes is TDMS."""
-    return head.startswith(_TAG)
+    return head.startswith(TAG)
 
 
 def read_tdms(data: bytes, source: str) -> Log:
@@ -76,7 +74,7 @@ def read_tdms(data: bytes, source: str) -> Log:
     FormatError
         If the file is cut off or damaged, was not closed, is made of too many pieces, or npTDMS is not installed.
     """
-    _check_segments(data, source)
+    check_segments(data, source)
     library = _nptdms()
     with _quiet() as warnings:
         try:
@@ -116,37 +114,14 @@ def _damaged(source: str, reason: str) -> FormatError:
     )
 
 
-def _check_segments(data: bytes, source: str) -> None:
-    """Check that whole segments fill the file, and that they do not list more objects than its size allows."""
-    at = objects = listed = 0
-    while at < len(data) or not at:
-        lead = data[at : at + _LEAD]
-        if len(lead) < _LEAD or not lead.startswith(_TAG):
-            raise FormatError(
-                f"{source}: no TDMS segment begins at byte {at}; the file is cut off or damaged; copy it again"
-            )
-        toc = int.from_bytes(lead[4:8], "little")
-        order = ">" if toc & _BIG else "<"
-        length, raw = struct.unpack(order + "QQ", lead[12:28])
-        if length == 0xFFFFFFFFFFFFFFFF:
-            raise FormatError(f"{source}: the segment at byte {at} was never finished (the program crashed); save it again")
-        if at + _LEAD + length > len(data) or raw > length or (toc & _META and raw < 4):
-            raise FormatError(
-                f"{source}: the segment at byte {at} claims {length} bytes, {len(data) - at - _LEAD} follow; the file is "
-                "cut off or damaged; copy it again"
-            )
-        if toc & _META:
-            here = struct.unpack(order + "L", data[at + _LEAD : at + _LEAD + 4])[0]
-            objects = here if toc & _NEW else objects + here
-        listed += objects + 1
-        if listed > _LEAST + len(data) // _BYTES_PER_OBJECT:
-            raise FormatError(f"{source}: lists more objects than its size allows; save it again, defragmented")
-        at += _LEAD + length
-
-
 def _check_data(file: Any, size: int, source: str) -> None:
     """Check that the data of each segment are whole chunks, and that there are not too many of them."""
     channels = sum(len(group.channels()) for group in file.groups())
+    for said in _properties(file):
+        numbered = [int(found[1]) for key in said if (found := _SCALE.match(key))]
+        for scales in (said.get(_SCALES, 0), *numbered):
+            if not isinstance(scales, int | np.integer) or not 0 <= scales <= len(said):
+                raise _damaged(source, f"{_SCALES} or the number of a scale is {scales!r:.40}")
     pieces = values = 0
     for segment in file._reader._segments:
         objects = [o for o in segment.ordered_objects if o.has_data]
@@ -167,10 +142,19 @@ def _check_data(file: Any, size: int, source: str) -> None:
             f"{source}: its channels claim {values} values in {size} bytes; the file is damaged, or holds many digital "
             f"lines: save the channels that you need to a file of their own"
         )
-    if pieces > _LEAST + size // _BYTES_PER_PIECE:
+    if pieces > LEAST + size // _BYTES_PER_PIECE:
         raise FormatError(
             f"{source}: its data are in {pieces} pieces, too many for {size} bytes; save it again, defragmented"
         )
+
+
+def _properties(file: Any) -> Iterator[Mapping[str, Any]]:
+    """The properties of the file, its groups and its channels."""
+    yield file.properties
+    for group in file.groups():
+        yield group.properties
+        for channel in group.channels():
+            yield channel.properties
 
 
 def _arrays(file: Any, source: str) -> tuple[dict[str, Array], dict[str, Mapping[str, Any]], list[str]]:
