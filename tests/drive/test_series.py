@@ -1,4 +1,4 @@
-"""Springs in series: round trips, limits, tables, uncertainty against finite differences and random draws, the rig check."""
+"""Springs in series: the table of the set-up, the rig check."""
 
 from __future__ import annotations
 
@@ -7,46 +7,11 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.stats import norm, t
 
-from elastogeo.drive.series import (
-    SetupCompliance,
-    compliance_from_stiffness,
-    engagement_from_force,
-    force_from_engagement,
-    in_series,
-    in_series_uncertainty,
-    inverse_uncertainty,
-    machine_compliance,
-    machine_compliance_uncertainty,
-    rig_check,
-    setup_compliance,
-    stiffness_from_compliance,
-    with_rig,
-)
+from elastogeo.drive.series import SetupCompliance, rig_check, setup_compliance, with_rig
 from elastogeo.errors import InputError
 
 ENGAGEMENT = np.array([0.04, 0.08, 0.12])
 FORCE = np.array([189.0, 450.0, 750.0])
-
-
-def test_two_equal_springs_in_series_are_half_as_stiff_and_a_rigid_one_changes_nothing() -> None:
-    two = in_series(*compliance_from_stiffness([8000.0, 8000.0]))
-    assert_allclose(stiffness_from_compliance(two), 4000.0, rtol=1e-15)
-    assert_allclose(in_series(two, compliance_from_stiffness(np.inf)), two, rtol=0)
-    assert stiffness_from_compliance(0.0) == np.inf
-
-
-@pytest.mark.parametrize("setup", [5e-5, np.array([5.3e-5, 5.8e-5, 6.1e-5])], ids=["constant", "table"])
-def test_the_compensation_undoes_the_set_up(setup: float | np.ndarray) -> None:
-    machine = np.array([1.6e-4, 1.2e-4, 1.0e-4])
-    engagement = engagement_from_force(FORCE, machine, setup)
-    assert_allclose(machine_compliance(engagement, FORCE, setup), machine, rtol=1e-13)
-    assert_allclose(force_from_engagement(engagement, machine, setup), FORCE, rtol=1e-14)
-
-
-def test_the_compliance_scales_with_the_units_and_does_not_mind_the_sign_of_both() -> None:
-    plain = machine_compliance(ENGAGEMENT, FORCE, 5e-5)
-    assert_allclose(machine_compliance(ENGAGEMENT * 1000, FORCE, 5e-2), plain * 1000, rtol=1e-14)
-    assert_allclose(machine_compliance(-ENGAGEMENT, -FORCE, 5e-5), plain, rtol=1e-15)
 
 
 def test_the_table_is_read_along_straight_lines() -> None:
@@ -99,46 +64,6 @@ def test_a_contradictory_set_up_is_refused(fields: dict[str, object], message: s
         SetupCompliance(**fields)  # type: ignore[arg-type]
 
 
-def test_what_is_no_reading_is_refused() -> None:
-    with pytest.raises(InputError, match="the force of 1 readings is zero"):
-        machine_compliance(ENGAGEMENT, [100.0, 0.0, 300.0], 0.0)
-    with pytest.raises(InputError, match="the engagement of a reading is NaN"):
-        machine_compliance([np.nan, 0.1, 0.1], FORCE, 0.0)
-    with pytest.raises(InputError, match="a stiffness is -3 N/mm"):
-        compliance_from_stiffness([1.0, -3.0])
-    with pytest.raises(InputError, match="a stiffness is nan"):
-        compliance_from_stiffness(np.nan)
-    with pytest.raises(InputError, match="a compliance is -1e-06 mm/N"):
-        stiffness_from_compliance([-1e-6])
-    with pytest.raises(InputError, match="no spring"):
-        in_series()
-    with pytest.raises(InputError, match="no positive compliance"):
-        force_from_engagement(0.1, 0.0, 0.0)
-
-
-def test_the_uncertainty_of_the_compliance_is_that_of_finite_differences() -> None:
-    values = np.array([0.12, 750.0, 6.1e-5])
-    uncertainties = np.array([0.4e-3, 20.0, 2e-6])
-    steps = 1e-4 * values
-    slopes = [
-        (machine_compliance(*(values + step)) - machine_compliance(*(values - step))) / (2 * step.max())
-        for step in np.diag(steps)
-    ]
-    stated = machine_compliance_uncertainty(values[0], values[1], *uncertainties)
-    assert_allclose(stated, np.linalg.norm(slopes * uncertainties), rtol=1e-7)
-
-
-def test_the_uncertainty_of_an_inverse_and_of_a_sum_is_that_of_random_draws() -> None:
-    random = np.random.default_rng(5)
-    draws = 2650.0 + 20.0 * random.standard_normal(200_000)
-    # The standard deviation of 2e5 draws is known to 1 / sqrt(4e5) = 0.16 %; 4 sigma, and (u / v)^2 = 6e-5 of higher orders.
-    assert inverse_uncertainty(2650.0, 20.0) == pytest.approx(np.std(1 / draws), rel=7e-3)
-    other = 1.6e-4 + 3e-6 * random.standard_normal(200_000)
-    assert in_series_uncertainty(3e-6, inverse_uncertainty(2650.0, 20.0)) == pytest.approx(
-        np.std(other + 1 / draws), rel=7e-3
-    )
-
-
 def test_the_rig_check_is_the_normalised_error_of_iso_13528_when_degrees_of_freedom_are_many() -> None:
     measured, predicted = np.array([5.194e-4, 5.6e-4]), np.array([5.325e-4, 5.325e-4])
     check = rig_check(measured, 6e-6, predicted, 8e-6)
@@ -166,7 +91,7 @@ def test_the_rig_check_agrees_at_its_stated_rate() -> None:
     predicted = with_rig(
         machine / scale + 3e-6 * random.standard_normal(trials), rig + 2e-6 * random.standard_normal(trials)
     )
-    u_predicted = in_series_uncertainty(3e-6, 2e-6)
+    u_predicted = float(np.hypot(3e-6, 2e-6))
     check = rig_check(measured, 4e-6, predicted, u_predicted, u_shared=u_scale * rig)
     # 4 sigma of the share of 20 000 trials is 0.6 %.
     assert check.agrees.mean() == pytest.approx(0.95, abs=0.0065)

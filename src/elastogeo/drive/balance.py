@@ -70,12 +70,6 @@ class TorqueBalance:
         """Effort that the motion does not explain, shape (m,) [`effort_unit`]: that of the load (Eq. 6.6)."""
         return np.asarray(record.effort - self.effort(record))
 
-    def disturbance_std(self, record: DriveRecord) -> Array:
-        """Standard uncertainty that the terms of the motion bring into `disturbance`, shape (m,) [`effort_unit`]."""
-        labels, columns = motion_columns(record, self.model)
-        order = [self.labels.index(label) for label in labels]
-        return np.asarray(np.sqrt(np.einsum("mi,ij,mj->m", columns, self.covariance[np.ix_(order, order)], columns)))
-
     def _check(self, record: DriveRecord) -> None:
         if (record.axis, record.effort_unit) != (self.axis, self.effort_unit):
             raise InputError(

@@ -1,8 +1,8 @@
 """Springs in series: the machine, the set-up of the test, the rig (Eqs. 6.1 to 6.5, 6.16).
 
 One force runs through all of them, so their deflections add, and so do their compliances (Eqs. 6.1 to 6.3). The encoders
-see the whole engagement, what is left when the set-up is taken off is the machine (6.5), and a rig of known compliance adds
-to it (6.16). Standard uncertainties are propagated to first order with the derivatives written out (JCGM 100, 5.1.2).
+see the whole engagement, what is left when the set-up's deflection is subtracted is the machine's (6.5), and a rig of known
+compliance adds to it (6.16).
 """
 
 from __future__ import annotations
@@ -117,135 +117,9 @@ def setup_compliance(setup: SetupCompliance, engagement: ArrayLike, force: Array
     return np.asarray(np.interp(at, setup.points, setup.compliance))
 
 
-def compliance_from_stiffness(stiffness: ArrayLike) -> Array:
-    """Compliance 1 / k [mm/N] of a stiffness [N/mm], any shape; zero for a rigid spring (infinite k).
-
-    Raises
-    ------
-    InputError
-        If a stiffness is not positive.
-    """
-    stiffness = np.asarray(stiffness, float)
-    if not (stiffness > 0).all():
-        raise InputError(f"a stiffness is {stiffness[~(stiffness > 0)].flat[0]:g} N/mm; each must be positive (or infinite)")
-    return np.asarray(1.0 / stiffness)
-
-
-def stiffness_from_compliance(compliance: ArrayLike) -> Array:
-    """Stiffness 1 / C [N/mm] of a compliance [mm/N], any shape; infinite for a compliance of zero.
-
-    Raises
-    ------
-    InputError
-        If a compliance is negative: it is a number to report with its interval, but no spring has such a stiffness.
-    """
-    compliance = np.asarray(compliance, float)
-    if not (compliance >= 0).all():
-        raise InputError(
-            f"a compliance is {compliance[~(compliance >= 0)].flat[0]:g} mm/N, which is the stiffness of no spring; "
-            f"report the compliance with its interval instead"
-        )
-    return np.asarray(np.divide(1.0, compliance, out=np.full(compliance.shape, np.inf), where=compliance > 0))
-
-
-def inverse_uncertainty(value: ArrayLike, standard_uncertainty: ArrayLike) -> Array:
-    """Standard uncertainty of 1 / v, `u(v) / v^2`: of a compliance from a stiffness, and the other way round.
-
-    To first order: it holds while `u(v)` is small against v, say below a tenth of it.
-    """
-    return np.asarray(np.asarray(standard_uncertainty, float) / np.square(np.asarray(value, float)))
-
-
-def in_series(*compliances: ArrayLike) -> Array:
-    """Compliance of springs in series [mm/N], the sum of theirs (Eqs. 6.2, 6.3).
-
-    Raises
-    ------
-    InputError
-        If there is none.
-    """
-    if not compliances:
-        raise InputError("there is no spring to put in series; give at least one compliance")
-    total = np.zeros(())
-    for compliance in compliances:
-        total = total + np.asarray(compliance, float)
-    return np.asarray(total)
-
-
-def in_series_uncertainty(*standard_uncertainties: ArrayLike) -> Array:
-    """Standard uncertainty of the sum of compliances that are known independently of one another [mm/N]."""
-    return np.sqrt(in_series(*(np.square(np.asarray(u, float)) for u in standard_uncertainties)))
-
-
-def machine_compliance(engagement: ArrayLike, force: ArrayLike, setup: ArrayLike) -> Array:
-    """Volumetric compliance of the machine, `C_VM = delta / F - C_S`, shape (m,) [mm/N] (Eq. 6.5).
-
-    Parameters
-    ----------
-    engagement : array, shape (m,) [mm]
-        By the encoders, of one sign with the force.
-    force : array, shape (m,) [N]
-    setup : array, shape (m,) [mm/N]
-        Compliance of the set-up at these readings, as from `setup_compliance`.
-
-    Raises
-    ------
-    InputError
-        If a force is zero, or a value is no finite number.
-    """
-    engagement, force, setup = _readings(engagement, force, setup)
-    return np.asarray(engagement / force - setup)
-
-
-def machine_compliance_uncertainty(
-    engagement: ArrayLike, force: ArrayLike, u_engagement: ArrayLike, u_force: ArrayLike, u_setup: ArrayLike
-) -> Array:
-    """Standard uncertainty of `machine_compliance`, shape (m,) [mm/N].
-
-    The derivatives are `1 / F` after the engagement, `-delta / F^2` after the force and -1 after the set-up's compliance,
-    the three being known independently. **What all readings share (efficiency, motor constant, set-up) does not average
-    out over them.**
-
-    Parameters
-    ----------
-    engagement, force
-        As in `machine_compliance`.
-    u_engagement : array, shape (m,) [mm]
-    u_force : array, shape (m,) [N]
-    u_setup : array, shape (m,) [mm/N]
-
-    Raises
-    ------
-    InputError
-        As `machine_compliance`.
-    """
-    engagement, force, u_setup = _readings(engagement, force, u_setup)
-    parts = np.asarray(u_engagement, float) / force, np.asarray(u_force, float) * engagement / force**2
-    return np.sqrt(parts[0] ** 2 + parts[1] ** 2 + u_setup**2)
-
-
-def engagement_from_force(force: ArrayLike, machine: ArrayLike, setup: ArrayLike) -> Array:
-    """Engagement that gives a force, `F (C_VM + C_S)`, shape (m,) [mm] (Eq. 6.4)."""
-    return np.asarray(np.asarray(force, float) * in_series(machine, setup))
-
-
-def force_from_engagement(engagement: ArrayLike, machine: ArrayLike, setup: ArrayLike) -> Array:
-    """Force of an engagement, `delta / (C_VM + C_S)`, shape (m,) [N] (Eq. 6.4).
-
-    Raises
-    ------
-    InputError
-        If the compliances do not add up to more than zero: nothing yields, and the force is not determined.
-    """
-    whole = in_series(machine, setup)
-    if not (whole > 0).all():
-        raise InputError("machine and set-up together have no positive compliance; an engagement then gives no force")
-    return np.asarray(np.asarray(engagement, float) / whole)
-
-
 def with_rig(machine: ArrayLike, rig: ArrayLike) -> Array:
     """Predicted compliance with a compliant rig in the loop, `C_VM + C_r`, shape (m,) [mm/N] (Eq. 6.16)."""
-    return in_series(machine, rig)
+    return np.asarray(np.asarray(machine, float) + np.asarray(rig, float))
 
 
 @dataclass(frozen=True, slots=True)
@@ -326,18 +200,6 @@ def rig_check(
     expanded = coverage_factor(effective, coverage) * uncertainty
     error = (one - other) / expanded
     return RigCheck(one - other, uncertainty, effective, expanded, error, np.abs(error) <= 1.0, coverage)
-
-
-def _readings(engagement: ArrayLike, force: ArrayLike, setup: ArrayLike) -> tuple[Array, Array, Array]:
-    engagement, force, setup = (np.asarray(value, float) for value in (engagement, force, setup))
-    for name, value in (("engagement", engagement), ("force", force), ("compliance of the set-up", setup)):
-        if not np.isfinite(value).all():
-            raise InputError(f"the {name} of a reading is NaN or infinite; leave the reading out or repair it")
-    if not force.all():
-        raise InputError(
-            f"the force of {int((force == 0).sum())} readings is zero; a compliance needs a force, leave them out"
-        )
-    return engagement, force, setup
 
 
 def _span(values: Array) -> str:

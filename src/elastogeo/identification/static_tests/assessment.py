@@ -17,12 +17,11 @@ from typing import cast
 
 import numpy as np
 
-from elastogeo.drive import FEEDBACKS
 from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.identification.identification import identify
 from elastogeo.identification.result import Identification
 from elastogeo.identification.static_tests.cartesian import Principal, cartesian_of
-from elastogeo.identification.static_tests.drive_train import OnAxis, OnAxisRecord, where_in_the_drive
+from elastogeo.identification.static_tests.drive_train import FEEDBACKS, OnAxis, OnAxisRecord, where_in_the_drive
 from elastogeo.identification.static_tests.hysteresis import hysteresis
 from elastogeo.identification.static_tests.result import Cartesian, LoadedPlace, LoadedRun, LoadStep, StaticResults, TwistRun
 from elastogeo.identification.static_tests.straight_line import static_line

@@ -25,7 +25,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from elastogeo.drive import FEEDBACKS
 from elastogeo.errors import DegreesOfFreedomError, InputError, RankError
 from elastogeo.estimate import (
     Estimate,
@@ -40,6 +39,9 @@ from elastogeo.estimate import (
 )
 from elastogeo.identification.check import Check
 from elastogeo.machine import Array
+
+FEEDBACKS = ("motor", "scale")
+"""Where the position loop of an axis may be closed: on the motor's encoder, or on a scale of the axis."""
 
 SERVO, TRANSMISSION, STRUCTURE = "servo", "transmission", "guideway and structure"
 
