@@ -66,8 +66,8 @@ def section(study: Study, found: Mapping[Cell, Rate]) -> str:
 def wanted(cell: Cell) -> str:
     """What the rate is to be, in words."""
     word = " or ".join(cell.counted)
-    if cell.least and cell.most < 1.0:
-        return f"{word} {100 * cell.least:g} to {100 * cell.most:g} %"
+    if not cell.least and cell.most == 1.0:
+        return f"{word}, as it comes"
     return f"{word} ≥ {100 * cell.least:g} %" if cell.least else f"{word} ≤ {100 * cell.most:g} %"
 
 

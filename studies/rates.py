@@ -22,7 +22,7 @@ from scipy import stats
 from elastogeo.errors import ElastogeoError
 from elastogeo.identification import identify
 from elastogeo.observe import Question
-from studies.bar_tests import make_test
+from studies.bar_tests import Layout, make_test
 from studies.noise import Noise
 from studies.truth import Truth
 
@@ -31,6 +31,8 @@ ALARM, SILENT, NOT_TESTED, ABSENT, REFUSED = "alarm", "silent", "not tested", "a
 
 NOMINAL = 0.05
 """False alarms that a check may give, unless its study says otherwise."""
+
+ROUNDING = 1e-12
 
 PART = 20
 """Draws that one process makes at a time."""
@@ -51,8 +53,8 @@ class Identified:
 
     Attributes
     ----------
-    layout : str
-        A name of `LAYOUTS`.
+    layout : str or Layout
+        A name of `LAYOUTS`, or one of its own.
     noise : str or Noise
         A name of `NOISES`, or any.
     truth : Truth or None
@@ -62,7 +64,7 @@ class Identified:
     topology : str
     """
 
-    layout: str
+    layout: str | Layout
     noise: str | Noise
     truth: Truth | None = None
     question: tuple[str, ...] | Question | None = None
@@ -117,6 +119,8 @@ class Cell:
         Between which the rate is to be: a false alarm has a most, a fault a least.
     short : int
         Draws with which the tests run it too; 0 for none.
+    share : float
+        Of the draws that a cell gets otherwise: less for what takes long.
     """
 
     truth: str
@@ -128,6 +132,7 @@ class Cell:
     least: float = 0.0
     most: float = 1.0
     short: int = 0
+    share: float = 1.0
 
     @property
     def key(self) -> str:
@@ -159,7 +164,7 @@ class Study:
 def cells(
     check: str,
     truth: str,
-    layouts: Iterable[str],
+    layouts: Iterable[str] | Mapping[str, Layout],
     noises: Iterable[str],
     drawn: Truth | None = None,
     *,
@@ -177,7 +182,9 @@ def cells(
         Whose word is counted.
     truth : str
         In words.
-    layouts, noises : iterable of str
+    layouts : iterable of str, or mapping of str to Layout
+        Names of `LAYOUTS`, or layouts of their own by the words for them.
+    noises : iterable of str
     drawn : Truth, optional
         What is drawn.
     question, resolution
@@ -187,10 +194,11 @@ def cells(
     short : mapping of (layout, noise) to int
         Which of them the tests run too, with how many draws.
     wanted
-        `most` of a false alarm, `least` of a fault, `counted`.
+        `most` of a false alarm, `least` of a fault, `counted`, `share`.
     """
     for layout, noise in product(layouts, noises):
-        sample = Identified(layout, noise, drawn, question, resolution)
+        runs = layouts[layout] if isinstance(layouts, Mapping) else layout
+        sample = Identified(runs, noise, drawn, question, resolution)
         yield Cell(
             truth, layout, noise, sample, judge or Named(check), short=(short or {}).get((layout, noise), 0), **wanted
         )
@@ -226,7 +234,7 @@ class Rate:
     def meets(self, cell: Cell) -> bool:
         """Whether the interval reaches what is wanted."""
         low, high = self.interval
-        return high >= cell.least and low <= cell.most
+        return high >= cell.least - ROUNDING and low <= cell.most + ROUNDING
 
 
 def wilson(hits: int, trials: int, level: float = 0.95) -> tuple[float, float]:

@@ -11,7 +11,7 @@ import os
 from pathlib import Path
 
 from studies.checks import studies
-from studies.page import page
+from studies.page import page, shown, wanted
 from studies.rates import Cell, Rate, Study, rates
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -37,18 +37,17 @@ def main(arguments: list[str] | None = None) -> int:
         run({name: known[name] for name in given.studies or known}, given.trials, given.faults, given.workers)
     found = {name: rates_of(study, read_counts(name)) for name, study in known.items()}
     PAGE.write_text(page(known, found), encoding="utf-8")
-    missed = [
-        (study.check, cell.key) for name, study in known.items() for cell in found[name] if not found[name][cell].meets(cell)
-    ]
-    for check, key in missed:
-        print(f"{check}: {key} is not as wanted")
+    for name, study in known.items():
+        for cell, rate in found[name].items():
+            if not rate.meets(cell):
+                print(f"{study.check}: {cell.key}: {shown(cell, rate)}, wanted {wanted(cell)}")
     return 0
 
 
 def run(chosen: dict[str, Study], trials: int, faults: int, workers: int) -> None:
     """Count the chosen studies and keep their counts."""
     every = [cell for study in chosen.values() for cell in study.cells]
-    found = rates(every, lambda cell: faults if cell.least else trials, workers)
+    found = rates(every, lambda cell: max(1, round(cell.share * (faults if cell.least else trials))), workers)
     for name, study in chosen.items():
         write_counts(name, {cell.key: dict(found[cell].words) for cell in study.cells})
 

@@ -39,8 +39,8 @@ MOST_TRIALS = 300_000
 """After which draws that have not settled will not."""
 
 COVERAGE = 0.95
-HELD = 0.02
-"""By how much the share of draws that an interval holds may differ from its coverage: one tenth of its width."""
+TAIL = 0.0125
+"""By how much the share of draws beyond an end of an interval may differ from 2.5 %: half of it."""
 
 _NORMAL = 1.959963984540054
 """Quantile of the normal distribution for this coverage."""
@@ -104,16 +104,16 @@ class Agreement:
     ----------
     draws : MonteCarlo
     agrees : array of bool, shape (p,)
-        Whether that share is 95 % to within `HELD`: else the model is not linear, or a distribution not normal, where it
+        Whether both shares are 2.5 % to within `TAIL`: else the model is not linear, or a distribution not normal, where it
         counts.
-    held : array, shape (p,)
-        Share of the draws that the interval to first order holds. The scatter is drawn as normal here, and the interval
+    beyond : array, shape (p, 2)
+        Share of the draws below and above the interval to first order. The scatter is drawn as normal here, and the interval
         taken for it, whatever its degrees of freedom: few of them widen an interval and are no fault of first order.
     """
 
     draws: MonteCarlo
     agrees: np.ndarray[tuple[int], np.dtype[np.bool_]]
-    held: Array
+    beyond: Array
 
 
 def uncertainty_budget(systems: Systems, solution: Solution, effects: Sequence[Effect]) -> Budget:
@@ -164,18 +164,19 @@ def agreement(systems: Systems, solution: Solution, effects: Sequence[Effect], b
     moved = _sampler(systems, solution, effects)
     scatter, freedom = solution.standard_uncertainty, solution.degrees_of_freedom
     half = _NORMAL * budget.standard_uncertainty
-    inside, trials = np.zeros(len(half)), 0
+    beyond, trials = np.zeros((len(half), 2)), 0
 
     def outputs(random: np.random.Generator, count: int) -> Array:
-        nonlocal inside, trials
+        nonlocal beyond, trials
         values, normal = moved(random, count)
-        inside = inside + np.sum(np.abs(values + normal * scatter - solution.values) <= half, axis=0)
+        off = values + normal * scatter - solution.values
+        beyond = beyond + np.column_stack([np.sum(off < -half, axis=0), np.sum(off > half, axis=0)])
         trials += count
         return np.asarray(values + stdtrit(freedom, ndtr(normal)) * scatter)
 
     draws = monte_carlo(outputs, digits=1, seed=seed, most=MOST_TRIALS)
-    held = inside / trials
-    return Agreement(draws, np.abs(held - COVERAGE) <= HELD, held)
+    shares = beyond / trials
+    return Agreement(draws, np.all(np.abs(shares - (1 - COVERAGE) / 2) <= TAIL, axis=1), shares)
 
 
 def _lines(contributions: Array, degrees: Array, effects: Sequence[Effect]) -> tuple[BudgetLine, ...]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from elastogeo.estimate import HUBER, Confounding
-from elastogeo.identification.budget import COVERAGE, HELD, Agreement
+from elastogeo.identification.budget import COVERAGE, TAIL, Agreement
 from elastogeo.identification.change import SIGNIFICANT, Change
 from elastogeo.identification.check import Check
 from elastogeo.identification.fit import Harmonic
@@ -64,7 +64,8 @@ def first_order_enough(agreement: Agreement, parameters: Sequence[Parameter]) ->
     """Whether the intervals to first order hold the share of random draws that they should (JCGM 101, 8)."""
     apart = {
         parameter.name: {
-            "held": float(agreement.held[k]),
+            "below": float(agreement.beyond[k, 0]),
+            "above": float(agreement.beyond[k, 1]),
             "low": float(agreement.draws.interval[k, 0]),
             "high": float(agreement.draws.interval[k, 1]),
             "unit": parameter.unit,
@@ -72,7 +73,7 @@ def first_order_enough(agreement: Agreement, parameters: Sequence[Parameter]) ->
         for k, parameter in enumerate(parameters)
         if not agreement.agrees[k]
     }
-    facts = {"apart": apart, "trials": agreement.draws.trials, "coverage": COVERAGE, "within": HELD}
+    facts = {"apart": apart, "trials": agreement.draws.trials, "coverage": COVERAGE, "within": TAIL}
     return Check("first order enough", not apart, facts)
 
 

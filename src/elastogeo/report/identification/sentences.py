@@ -99,12 +99,13 @@ def first_order_enough(facts: Facts, passed: bool | None) -> str:
     if passed is None:
         return f"Not judged: {facts['why']}."
     trials = f"{facts['trials']} Monte Carlo trials"
+    tail = f"{(1 - facts['coverage']) / 2:.1%}"
     if passed:
-        return f"The intervals hold {facts['coverage']:.0%} of {trials}, to within {facts['within']:.0%}."
-    held = "; ".join(f"{name} {drawn['held']:.1%}" for name, drawn in facts["apart"].items())
+        return f"The intervals leave {tail} of {trials} on either side, to within {facts['within']:.1%}."
+    beyond = "; ".join(f"{name} {x['below']:.1%} below, {x['above']:.1%} above" for name, x in facts["apart"].items())
     instead = "; ".join(f"{name} {drawn_interval(drawn)}" for name, drawn in facts["apart"].items())
     return (
-        f"The interval to first order should hold {facts['coverage']:.0%} of {trials}, and holds: {held}. A distribution "
+        f"The interval to first order should leave {tail} of {trials} on either side, and leaves: {beyond}. A distribution "
         f"that is not normal, or a model that is not linear, decides. Use the interval of the trials instead: {instead}."
     )
 
