@@ -51,8 +51,8 @@ def stated(truth: str, influences: tuple[KnownInfluence, ...], short: int = 0, *
 
 STUDY = Study(
     CHECK,
-    "The interval must leave 2.5 % of the draws on either side, to within half of that. What makes it fail is an influence that "
-    "is not normal, or not small, and rules; few degrees of freedom do not.",
+    "The interval must leave 2.5 % of the draws on either side, to within half of that. What makes it fail is an influence "
+    "that is not normal, or not small, and rules; few degrees of freedom do not.",
     (
         *stated("1 % of force and 1 um of bar length, normal", (FORCE, LENGTH), short=1, most=0.05),
         *stated("10 um of bar length, rectangular, rules the gains", (RULING,), short=1, least=0.95),
