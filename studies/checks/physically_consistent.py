@@ -1,19 +1,22 @@
 """Whether the compliances agree with symmetric joints that never gain energy, or contradict them beyond noise."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from itertools import product
 from math import sqrt
 from typing import Any
 
-from studies.bar_tests import LOADED
+from elastogeo.estimate import merge, solve, solve_by_run
+from elastogeo.identification import Consistency, confounding_of, consistency, systems_of
+from studies.bar_tests import LOADED, QUESTION, make_test
 from studies.noise import NOISES, Noise
-from studies.rates import ALARM, NOT_TESTED, Cell, Identified, Named, Study, cells
+from studies.rates import ALARM, NOT_TESTED, SILENT, Cell, Study, cells
 from studies.truth import TABLE_5_5, Truth, with_values
 
 CHECK = "physically consistent"
 PLANAR = ("planar-xy", "E_XX1", "E_YX2", "E_XY2", "E_YY1", "E_C(0Y)X", "E_Xt0", "E_Yt0")
 """All 18 planar compliances, so that pairs restrict each other; the 13 of Table 5.1 restrict signs alone."""
 
-UNSOLVED, SOLVED = "unsolved", "solved"
 SMALL = ("white", "of the run", "quantised", "eccentricity")
 """Noises under which C_CCY = -3e-11 is at least five of its standard uncertainties on 15 runs."""
 
@@ -33,26 +36,73 @@ def coupled(share: float) -> Truth:
     return Truth(with_values(TABLE_5_5, C_XYX=half, C_YXX=half))
 
 
-def solved(result: Any) -> str:
-    """Judge: whether the nearest physical estimate was found."""
-    return UNSOLVED if result.consistency is None else SOLVED
+@dataclass(frozen=True)
+class Judged:
+    """A simulated test, its estimate by run, and what physics says: a tenth of the time of a whole identification."""
+
+    layout: str
+    noise: str | Noise
+    truth: Truth | None = None
+    question: tuple[str, ...] = QUESTION
+
+    def draw(self, seed: tuple[int, ...]) -> Consistency:
+        """What physics says; an estimate that is not solved is refused."""
+        test = make_test(self.layout, self.truth, self.noise, seed, question=self.question)
+        systems = systems_of(test)
+        found = confounding_of(test, systems)
+        runs = [run.factor for run in systems.runs]
+        by_run, by_reading = solve_by_run(runs, found.retained), solve(merge(*runs), found.retained)
+        return consistency(systems.sources, found, by_run, correlated_as=by_reading.covariance)
+
+
+def marked(found: Any) -> str:
+    """Judge: the mark of the check."""
+    return {"contradicted": ALARM, "not tested": NOT_TESTED}.get(found.state, SILENT)
+
+
+def solved(found: Any) -> str:  # noqa: ARG001
+    """Judge: every draw that is not refused is solved."""
+    return "solved"
+
+
+def judged(
+    truth: str,
+    layouts: Iterable[str],
+    noises: Iterable[str],
+    drawn: Truth | None = None,
+    question: tuple[str, ...] = QUESTION,
+    short: int = 0,
+    **wanted: Any,
+) -> Iterator[Cell]:
+    """Cells of such draws, one for each layout and noise; the first is short."""
+    for k, (layout, noise) in enumerate(product(layouts, noises)):
+        yield Cell(truth, layout, noise, Judged(layout, noise, drawn, question), marked, short=0 if k else short, **wanted)
 
 
 def wander() -> Iterator[Cell]:
-    """The centre moves from run to run: the cases in which version 0.1.0 solved as few as 12 %."""
+    """The centre moves from run to run: the cases of which version 0.1.0 solved as few as 12 %."""
     for size in (0.2, 0.5, 1.0, 2.0, 5.0):
-        sample = Identified("7 runs", Noise(eccentricity=size * 1e-3), question=PLANAR)
+        sample = Judged("7 runs", Noise(eccentricity=size * 1e-3), question=PLANAR)
         truth = f"Table 5.5, the centre wanders by {size:g} um"
-        yield Cell(f"{truth}: solved", "7 runs", "eccentricity", sample, solved, (SOLVED,), least=0.995)
-        yield Cell(truth, "7 runs", "eccentricity", sample, Named(CHECK), most=0.05)
+        yield Cell(truth, "7 runs", "eccentricity", sample, marked, most=0.05)
+        yield Cell(f"{truth}: solved", "7 runs", "eccentricity", sample, solved, SOLVED, least=0.995)
+
+
+def boundary() -> Iterator[Cell]:
+    """A joint of rank one: found on the boundary, where noise leads outside every other time."""
+    yield from judged("a joint of rank one", LOADED, NOISES, BOUNDARY, PLANAR, short=20, most=0.05)
+    for layout, noise in product(LOADED, NOISES):
+        sample = Judged(layout, noise, BOUNDARY, PLANAR)
+        yield Cell("a joint of rank one: solved", layout, noise, sample, solved, SOLVED, least=0.995)
 
 
 NEGATIVE_C = Truth(with_values(TABLE_5_5, C_CCY=-3e-11))
 AS_PRINTED = Truth(with_values(TABLE_5_5, C_CCY=-1.1e-9))
 NEGATIVE_X = Truth(with_values(TABLE_5_5, C_XXX=-2e-5))
 BOUNDARY = pushed(5e-3, 6e-3, 1e-5)
-SHORT = {("7 runs", "white"): 20}
-SAID = {"counted": (ALARM, NOT_TESTED)}
+SOLVED = ("solved",)
+SAID = {"counted": (ALARM, NOT_TESTED), "least": 0.95}
+FOUND = {"least": 0.95}
 
 STUDY = Study(
     CHECK,
@@ -63,49 +113,18 @@ STUDY = Study(
     "the value of the thesis, -1.1e-9, is asked for too.",
     (
         *cells(CHECK, "Table 5.5, 13 parameters", LOADED, NOISES, most=0.05),
-        *cells(CHECK, "Table 5.5, 18 compliances", LOADED, NOISES, question=PLANAR, most=0.05),
-        *cells(
-            CHECK,
-            "a joint of rank one",
-            LOADED,
-            NOISES,
-            BOUNDARY,
-            question=PLANAR,
-            most=0.05,
-            short=SHORT,
-        ),
-        *cells(
-            CHECK,
-            "a joint of rank one: solved",
-            LOADED,
-            NOISES,
-            BOUNDARY,
-            question=PLANAR,
-            judge=solved,
-            counted=(SOLVED,),
-            least=0.995,
-            short=SHORT,
-        ),
+        *judged("Table 5.5, 18 compliances", LOADED, NOISES, None, PLANAR, most=0.05),
+        *boundary(),
         *wander(),
-        *cells(CHECK, "C_CCY = -3e-11", ["15 runs"], SMALL, NEGATIVE_C, least=0.95, short={("15 runs", "white"): 10}),
-        *cells(CHECK, "C_CCY = -3e-11", ["7 runs"], SMALL, NEGATIVE_C, least=0.95, **SAID, short={("7 runs", "white"): 10}),
-        *cells(CHECK, "C_CCY = -1.1e-9", ["15 runs"], NOISES, AS_PRINTED, least=0.95),
-        *cells(CHECK, "C_CCY = -1.1e-9", ["7 runs"], NOISES, AS_PRINTED, least=0.95, **SAID),
-        *cells(CHECK, "C_XXX = -2e-5", ["15 runs"], NOISES, NEGATIVE_X, least=0.95),
-        *cells(CHECK, "C_XXX = -2e-5", ["7 runs"], NOISES, NEGATIVE_X, least=0.95, **SAID),
-        *cells(CHECK, "C_XYX 50 % too large", ["15 runs"], NOISES, coupled(0.5), question=PLANAR, least=0.95),
-        *cells(CHECK, "C_XYX 50 % too large", ["7 runs"], NOISES, coupled(0.5), question=PLANAR, least=0.95, **SAID),
-        *cells(
-            CHECK,
-            "C_XYX 10 % too large",
-            LOADED,
-            NOISES,
-            coupled(0.1),
-            question=PLANAR,
-            least=0.95,
-            **SAID,
-            short={("7 runs", "white"): 10},
-        ),
+        *judged("C_CCY = -3e-11", ["15 runs"], SMALL, NEGATIVE_C, short=20, **FOUND),
+        *judged("C_CCY = -3e-11", ["7 runs"], SMALL, NEGATIVE_C, short=20, **SAID),
+        *judged("C_CCY = -1.1e-9", ["15 runs"], NOISES, AS_PRINTED, **FOUND),
+        *judged("C_CCY = -1.1e-9", ["7 runs"], NOISES, AS_PRINTED, **SAID),
+        *judged("C_XXX = -2e-5", ["15 runs"], NOISES, NEGATIVE_X, **FOUND),
+        *judged("C_XXX = -2e-5", ["7 runs"], NOISES, NEGATIVE_X, **SAID),
+        *judged("C_XYX 50 % too large", ["15 runs"], NOISES, coupled(0.5), PLANAR, **FOUND),
+        *judged("C_XYX 50 % too large", ["7 runs"], NOISES, coupled(0.5), PLANAR, **SAID),
+        *judged("C_XYX 10 % too large", LOADED, NOISES, coupled(0.1), PLANAR, short=20, **SAID),
     ),
     order=1,
 )
