@@ -256,11 +256,11 @@ What to read in it:
   limit is in the data: if every number of the design is off by up to half a unit in its last place, exact arithmetic has 7.5
   digits in 80 of 100 cases, and 7.3 in the worst of 60 (decision 10).
 - **refined** is `elastogeo.estimate.refine(factor, blocks)`, which takes the rows once more: one step of iterative
-  refinement with residuals, and the products of columns, in doubled precision. It reaches the exact solution of the float64 data to 12 digits (a test compares it with rational arithmetic);
-  what is missing from 15 in the table, the data lost when they were written in float64, and where the plain solution
-  shows more, that is chance. The result does not depend on the order of the rows, the size of blocks, or the platform.
-  Use it when a confounding report calls the problem weak and the answer still matters; an ordinary test of a machine gains
-  nothing from it, its noise is ten digits above.
+  refinement with residuals, and the products of columns, in doubled precision. It reaches the exact solution of the float64
+  data to 12 digits (a test compares it with rational arithmetic); what is missing from 15 in the table, the data lost when
+  they were written in float64, and where the plain solution shows more, that is chance. The result does not depend on the
+  order of the rows, the size of blocks, or the platform. Use it when a confounding report calls the problem weak and the
+  answer still matters; an ordinary test of a machine gains nothing from it, its noise is ten digits above.
 - **numpy** and **scipy** are `lstsq` as called by default, **statsmodels** is `OLS(...).fit()` by default. None scales
   columns. On *Filip* numpy takes the design for rank 10 of 11 and returns the coefficients of another problem; the rank
   stands in its answer, for those who look. statsmodels does the same, with a warning.
