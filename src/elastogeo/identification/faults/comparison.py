@@ -132,19 +132,6 @@ def _difference(before: Identification, after: Identification, name: str, joint:
 
 def _verdict(differences: Sequence[Difference], joint: Change) -> Check:
     """Whether anything changed: each parameter at a level that allows for their number."""
-    changed = [d.name for d in differences if d.p_value < SIGNIFICANT / len(differences)]
-    if changed:
-        return Check(
-            "unchanged", False, {"said": f"{', '.join(changed)} changed by more than the uncertainty of the two tests."}
-        )
-    if joint.significant:
-        return Check(
-            "unchanged",
-            False,
-            {"said": f"Together the parameters changed (p = {joint.p_value:.2g}), none of them by itself."},
-        )
-    return Check(
-        "unchanged",
-        True,
-        {"said": f"No parameter changed by more than the uncertainty of the two tests (p = {joint.p_value:.2g})."},
-    )
+    changed = tuple(d.name for d in differences if d.p_value < SIGNIFICANT / len(differences))
+    facts = {"changed": changed, "together": joint.significant, "p_value": joint.p_value}
+    return Check("unchanged", not (changed or joint.significant), facts)

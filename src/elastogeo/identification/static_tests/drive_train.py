@@ -358,36 +358,15 @@ def _limits(record: OnAxisRecord, feedback: str, parts: Sequence[OnAxisPart], wh
 
 
 def _counted(by_run: bool, runs: int) -> Check:
-    if by_run:
-        return Check("uncertainty by run", True, {"said": f"The uncertainties come from the scatter of {runs} runs."})
-    return Check(
-        "uncertainty by run",
-        False,
-        {
-            "said": f"The uncertainties count on independent readings, because {runs} run{'s are' if runs > 1 else ' is'} too few. "
-            f"Readings along a load rarely are: repeat the load in several runs."
-        },
-    )
+    return Check("uncertainty by run", by_run, {"runs": runs, "reference": False})
 
 
 def _springs(parts: Sequence[OnAxisPart]) -> Check:
-    """Whether every part is a spring: none yields against the force by more than its uncertainty."""
-    wrong = [part.name for part in parts if part.compliance.interval()[1] < 0]
-    if not wrong:
-        return Check("springs in series", True, {"said": "No part yields against the force by more than its uncertainty."})
-    return Check(
-        "springs in series",
-        False,
-        {
-            "said": f"The compliance of {', '.join(wrong)} is negative by more than its uncertainty: the parts sum to more than the "
-            f"whole, or a channel has the wrong sign, axis or unit."
-        },
-        decisive=True,
-    )
+    """Whether every part yields with the force, to within its uncertainty."""
+    wrong = tuple(part.name for part in parts if part.compliance.interval()[1] < 0)
+    return Check("springs in series", not wrong, {"negative": wrong}, decisive=bool(wrong))
 
 
 def _apart(parts: Sequence[OnAxisPart]) -> Check:
-    together = [part.name for part in parts if len(part.names) > 1]
-    if not together:
-        return Check("parts told apart", True, {"said": "Each part that was seen stands for itself."})
-    return Check("parts told apart", False, {"said": f"Only the sum is known of {'; '.join(together)}."})
+    together = tuple(part.name for part in parts if len(part.names) > 1)
+    return Check("parts distinguished", not together, {"together": together})

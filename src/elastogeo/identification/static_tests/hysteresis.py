@@ -17,7 +17,9 @@ Branches are smoothed by polynomials, for loads of both signs one on each side o
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -212,37 +214,15 @@ def _remaining(force: Array, displacement: Array, dead_band: float, residual_std
 
 def _checks(static: Estimate, average: Estimate, cycles: int) -> tuple[Check, ...]:
     """What is to be believed."""
-    um = 1000.0
     with_force, loses = static.interval()[1] > 0, average.interval()[1] > 0
     return (
-        Check(
-            "displacement with the force",
-            with_force,
-            {
-                "said": f"The static compliance is {static.value * um:.4g} um/N."
-                if with_force
-                else f"The displacement goes against the force ({static.value * um:.4g} um/N): turn the sensor's sign, unless "
-                f"the sensor reads across the force."
-            },
-        ),
-        Check(
-            "energy is lost, not gained",
-            loses,
-            {
-                "said": f"The mean hysteresis is {average.value * um:.3g} um."
-                if loses
-                else f"The loop runs the wrong way round ({average.value * um:.3g} um): the force and the displacement may be "
-                f"shifted in time against each other, or one of the signs is wrong."
-            },
-        ),
-        Check(
-            "uncertainty by cycle",
-            cycles > 1,
-            {
-                "said": f"The uncertainties come from the scatter of {cycles} cycles."
-                if cycles > 1
-                else "There is one cycle: the uncertainties count on independent readings and do not say how a second cycle "
-                "would differ; load it three times at least."
-            },
-        ),
+        Check("displacement with the force", with_force, signed_facts({"": static}, {} if with_force else {"": static})),
+        Check("energy is lost, not gained", loses, signed_facts({"": average}, {} if loses else {"": average})),
+        Check("uncertainty by cycle", cycles > 1, {"cycles": cycles, "single": () if cycles > 1 else ("",)}),
     )
+
+
+def signed_facts(values: Mapping[str, Estimate], wrong: Mapping[str, Estimate]) -> dict[str, Any]:
+    """Facts of a number that must be positive: least and greatest value, and those of the wrong sign by run."""
+    sizes = [value.value for value in values.values()]
+    return {"least": min(sizes), "greatest": max(sizes), "wrong": {run: value.value for run, value in wrong.items()}}
