@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import inspect
 import os
+import re
+import sys
+import textwrap
+from types import ModuleType
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy: workers on shared cores wait for each other's threads
 
 from collections.abc import Callable, Sequence
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +24,21 @@ from elastogeo.observe import Circle, LoadedBallBar, MachineTest, Question, Run
 
 settings.register_profile("house", derandomize=True, database=None, deadline=None, print_blob=False)
 settings.load_profile("house")
+
+
+def follow_recipe(register: str, name: str) -> None:
+    """Make the file that the docstring of a register teaches, as it stands there, and register what it defines.
+
+    The contract suites then run on the recipes themselves.
+    """
+    found = re.search(r"A complete one,\s`\w+\.py`::\n\n((?:    .*\n|\n)+)", f"{inspect.getdoc(import_module(register))}\n")
+    assert found
+    module = sys.modules.setdefault(name, ModuleType(name))
+    exec(compile(textwrap.dedent(found[1]), f"{name}.py", "exec"), module.__dict__)
+
+
+follow_recipe("elastogeo.observe.instruments", "recipe_dial_gauge")
+follow_recipe("elastogeo.sources.families", "recipe_sliding_compliance")
 
 SHARED_DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 """Data sets that stay beside the repository; a clone may be without them."""

@@ -17,6 +17,15 @@ from elastogeo.formats.text import by_content
 from elastogeo.formats.text.by_content import HEAD
 from elastogeo.formats.text.table import Table
 
+
+def _registered_toy() -> None:
+    """The recipe as it stands in the docstring, registered like any format."""
+    found = re.search(r"`runs/toy\.py`::\n\n(.*?)\n\nWhat the contract asks", inspect.getdoc(run_files) or "", re.DOTALL)
+    assert found
+    exec(compile(textwrap.dedent(found[1]), "runs/toy.py", "exec"), {})
+
+
+_registered_toy()
 FORMATS = list(run_formats().values())
 each_format = pytest.mark.parametrize("run_format", FORMATS, ids=lambda f: f.name)
 
@@ -136,16 +145,14 @@ def test_large_and_empty_and_missing_files_are_refused(tmp_path: Path, monkeypat
         read_run(path)
 
 
-def test_the_toy_of_the_recipe_works(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(run_files, "_FORMATS", run_formats())
-    found = re.search(r"`runs/toy\.py`::\n\n(.*?)\n\nWhat the contract asks", inspect.getdoc(run_files) or "", re.DOTALL)
-    assert found
-    exec(compile(textwrap.dedent(found[1]), "runs/toy.py", "exec"), {})
-    toy = run_files.run_formats()["toy"]
+def test_the_toy_of_the_recipe_is_held_to_the_contract() -> None:
+    toy = run_formats()["toy"]
+    assert toy in FORMATS
     assert read_run_bytes(toy.sample(), "f").column("force").tolist() == [36.0, 742.0]
-    assert [f.name for f in run_files.run_formats().values() if f.can_read(toy.sample())] == ["toy"]
     with pytest.raises(FormatError, match="f, line 2: b'x' is not a force; correct it"):
-        read_run_bytes(b"TOY\nx", "f")
+        read_run_bytes(b"TOY 1\nx\n", "f")
+    with pytest.raises(FormatError, match="the file may be cut off, copy it again"):
+        read_run_bytes(toy.sample()[:-3], "f")
 
 
 def test_a_table_is_read_only_and_names_what_it_has() -> None:

@@ -3,7 +3,7 @@
 To add a format, write one file in the folder `runs` beside this one. It is found and registered by itself, and
 the contract tests in `tests/formats/test_run_files.py` run on it at once. A complete one, `runs/toy.py`::
 
-    """The toy format: the word TOY, then one force in newtons on each line."""
+    """The toy format: the word TOY and how many forces follow, then one force in newtons on each line."""
 
     import numpy as np
 
@@ -13,12 +13,16 @@ the contract tests in `tests/formats/test_run_files.py` run on it at once. A com
 
 
     def can_read(head: bytes) -> bool:
-        return head.startswith(b"TOY\\n")
+        return head.startswith(b"TOY ")
 
 
     def read(data: bytes, source: str) -> Table:
+        head, *lines = data.split(b"\\n")
+        promised, ended = head.removeprefix(b"TOY ").strip(), lines[-1:] == [b""]
+        if not ended or promised != b"%d" % (len(lines) - 1):
+            raise FormatError(f"{source}: {len(lines)} lines follow {head[:20]!r}; the file may be cut off, copy it again")
         forces = []
-        for number, line in enumerate(data.splitlines()[1:], 2):
+        for number, line in enumerate(lines[:-1], 2):
             try:
                 forces.append(float(line))
             except ValueError:
@@ -26,7 +30,7 @@ the contract tests in `tests/formats/test_run_files.py` run on it at once. A com
         return Table({"force": np.array(forces)}, {}, source)
 
 
-    register(RunFormat("toy", ".toy", can_read, read, sample=lambda: b"TOY\\n36.0\\n742.0\\n"))
+    register(RunFormat("toy", ".toy", can_read, read, sample=lambda: b"TOY 2\\n36.0\\n742.0\\n"))
 
 What the contract asks:
 
@@ -34,7 +38,8 @@ What the contract asks:
 * `read` turns any bytes into a `Table` in internal units, or raises a `FormatError` that says where in the file, what
   arrived, why it will not do, and what to do. It counts all that is wrong and shows the first five;
 * it never drops, pads or rounds a reading; it takes less than a second and ten times the file's size for each megabyte;
-* `sample` gives a small valid file, on which the detectors of all other formats are tried, and all its prefixes read;
+* `sample` gives a small valid file, on which the detectors of all other formats are tried. Cut off anywhere it is refused:
+  half a number reads as another number, so a file must say where it ends;
 * a format whose files may hold several runs also gives `read_runs`, and makes its `read` of it by `only_run`. People choose
   a run by its number behind the file's name: `file = "xy.b5r#2"`.
 '''

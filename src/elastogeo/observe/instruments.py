@@ -1,17 +1,58 @@
-"""The register of instruments. A new one is a file of this room that defines a set-up and registers it:
+'''The register of instruments: found and registered by themselves, in every file of this room and its wings.
+
+To add one, write one file in a wing, with a set-up class that registers itself. Nothing else changes: test files may name
+it, and the contract suite in `tests/contract` tests it. A complete one, `dial_gauge.py`::
+
+    """A dial gauge on the spindle, turned by hand about a loaded mandrel: it reads along its own direction."""
+
+    from dataclasses import dataclass, field, replace
+
+    import numpy as np
+
+    from elastogeo.machine import AxisCommands, workpiece_ball
+    from elastogeo.observe import Observations, Setup, check_observations, instrument
+
 
     @instrument("dial-gauge")
     @dataclass(frozen=True)
-    class DialGauge:
-        centre: Mapping[str, float] = ...
-        quantities = ("deflection",)
-        pose_quantity = "deflection"
-        def observe(self, machine, run): ...
-        def observe_all(self, machine, runs): ...
-        def simulated(self, machine, run, respond, imperfection, random): ...
+    class DialGauge(Setup):
+        pull: tuple[float, float, float] = (0.0, 0.0, -1.0)
+        pose: AxisCommands = field(default_factory=dict)
 
-Nothing else changes: test files may name it, and the contract suite tests it.
-"""
+        quantities = ("angle", "displacement")
+        pose_quantity = "angle"
+
+        def observe(self, machine, run):
+            angle = run.columns["angle"]
+            centre = np.array([self.pose.get(axis, 0.0) for axis in machine.axes])
+            still = np.zeros((len(angle), len(centre)))
+            none = np.zeros((len(angle), 4))
+            observations = Observations(
+                run=run.name,
+                force=run.force,
+                pose=angle,
+                commands=still + centre,
+                velocity=still,
+                acceleration=still,
+                centre=centre,
+                direction=np.column_stack([np.cos(angle), np.sin(angle), none]),
+                wrench=run.force * np.tile([*self.pull, 0.0, 0.0, 0.0], (len(angle), 1)),
+                reading=run.columns["displacement"],
+                correction=np.zeros(len(angle)),
+                tool=np.array(machine.tool),
+                workpiece=workpiece_ball(machine, self.pose),
+            )
+            return check_observations(observations)
+
+        def simulated(self, machine, run, respond, imperfection, random):
+            angle = run.columns["angle"]
+            blank = self.observe(machine, replace(run, columns={"angle": angle, "displacement": np.zeros(len(angle))}))
+            read = imperfection.noisy(respond(blank), random)
+            return replace(run, columns={"angle": angle, "displacement": read})
+
+What else a set-up may say (its default question, its facts for a report, its template for `elastogeo new`, observations
+that take all runs at once) is in `setup.Setup`, with defaults.
+'''
 
 from __future__ import annotations
 

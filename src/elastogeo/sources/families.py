@@ -1,12 +1,42 @@
-"""The register of families of error sources. A new one is a file of this room with a function that registers itself:
+'''The register of families of error sources: found and registered by themselves, in all files of this room and its wings.
+
+To add one, write one file with a function that registers itself. Nothing else changes: the catalogue lists its sources,
+patterns select them, the contract suite in `tests/sources/test_contract.py` tests them. A complete one,
+`sliding_compliance.py`::
+
+    """Compliance along an axis that changes as it travels: `CQ_XXX` is what C_XXX gains per mm from the test's centre."""
+
+    from dataclasses import dataclass
+
+    from elastogeo.machine import COMPONENTS
+    from elastogeo.sources import Source, family
+
+
+    @dataclass(frozen=True)
+    class LoadTimesTravel:
+        axis: str
+        component: int
+
+        def __call__(self, situation):
+            return situation.load(self.axis)[:, self.component] * situation.from_centre(self.axis)
+
 
     @family
-    def thermal_growth(machine):
+    def sliding_compliance(machine):
         for joint in machine.joints:
-            yield Source(f"E_T{joint.name}", "mm/K", ("motion", joint.name), 0, temperature, "thermal growth")
-
-Nothing else changes: the catalogue lists it, patterns select it, the contract suite tests it.
-"""
+            if not joint.is_rotary:
+                letter = COMPONENTS[joint.direction]
+                yield Source(
+                    name=f"CQ_{letter}{letter}{joint.name}",
+                    unit="mm/N/mm",
+                    site=("motion", joint.name),
+                    component=joint.direction,
+                    driver=LoadTimesTravel(joint.name, joint.direction),
+                    meaning=f"what C_{letter}{letter}{joint.name} gains along the travel of {joint.name}",
+                    load=joint.direction,
+                    force_degree=1.0,
+                )
+'''
 
 from __future__ import annotations
 
