@@ -5,11 +5,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+from elastogeo.cli.app import commands
+
 PAGE = Path(__file__).with_name("cli.md")
-COMMANDS = (
-    "demo", "new", "simulate", "identify", "diagnose", "whatif", "compare", "brbd", "static", "drive", "record",
-    "confounding", "machines",
-)  # fmt: skip
 INTRODUCTION = """\
 # Command line
 
@@ -24,7 +22,7 @@ This page is written from the help texts by `docs/make_cli.py`.
 def reference() -> str:
     """The page as it should be."""
     sections = [INTRODUCTION, section()]
-    return "\n".join([*sections, *(section(command) for command in COMMANDS)])
+    return "\n".join([*sections, *(section(command) for command in (one.__name__ for one in commands()))])
 
 
 def section(*command: str) -> str:

@@ -73,8 +73,4 @@ def test_every_page_is_reached_from_the_index_as_a_plain_file():
 
 def test_the_reference_of_the_command_line_is_that_of_the_commands():
     make_cli = script("make_cli")
-    from elastogeo.cli.app import app
-
-    commands = {command.callback.__name__ for command in app.registered_commands}
-    assert set(make_cli.COMMANDS) == commands, "docs/make_cli.py does not know every command"
     assert make_cli.PAGE.read_text(encoding="utf-8") == make_cli.reference(), "run: python docs/make_cli.py"

@@ -8,6 +8,7 @@ import sys
 import pytest
 
 from elastogeo.cli import main
+from elastogeo.cli.app import ORDER, commands
 from elastogeo.formats import example_test
 
 
@@ -74,11 +75,11 @@ def test_a_preferred_parameter_is_retained(my_test, elastogeo):
 
 def test_confounding_before_any_run_is_made(tmp_path, elastogeo):
     elastogeo("new", tmp_path / "t")
-    code, out, err = elastogeo("confounding", tmp_path / "t", "--planned", "90", "-p", "C_*", "--json")
+    code, out, err = elastogeo("explain", tmp_path / "t", "--planned", "90", "-p", "C_*", "--json")
     assert (code, err) == (0, "")
     document = json.loads(out)
     assert (document["columns"], document["rank"]) == (180, 6)
-    code, out, _ = elastogeo("confounding", tmp_path / "t", "--planned", "90")
+    code, out, _ = elastogeo("explain", tmp_path / "t", "--planned", "90")
     assert code == 0
     assert "Always together: C_XXX, C_XXY" in out
     assert "no reading of this test: nothing at all is known of them" in out
@@ -132,7 +133,7 @@ def test_wrong_usage_ends_with_2(elastogeo):
 
 def test_version_and_help_with_an_example_for_every_command(elastogeo):
     assert elastogeo("--version") == (0, "elastogeo 0.1.0\n", "")
-    for command in ("demo", "new", "simulate", "identify", "confounding", "machines"):
+    for command in ("demo", "new", "simulate", "identify", "explain", "machines"):
         code, out, _ = elastogeo(command, "--help")
         assert code == 0
         assert f"  elastogeo {command}" in out, command
@@ -153,3 +154,15 @@ def test_a_file_name_with_markup_is_printed_as_it_is(my_test, elastogeo):
 
 def test_the_example_is_found():
     assert (example_test() / "test.toml").is_file()
+
+
+def test_the_help_lists_every_command_with_its_whole_summary():
+    """One word each, in the order of the design; at 80 columns no summary is cut."""
+    environment = {**os.environ, "COLUMNS": "80", "TERMINAL_WIDTH": "80", "NO_COLOR": "1"}
+    done = subprocess.run(
+        [sys.executable, "-m", "elastogeo", "--help"], capture_output=True, text=True, check=True, env=environment
+    )
+    listed = done.stdout.partition("Commands:\n")[2].splitlines()
+    assert [line.split()[0] for line in listed] == [one.__name__ for one in commands()]
+    assert all(line.endswith(".") and not line.endswith("..") for line in listed)
+    assert [name for name in ORDER if name in {one.__name__ for one in commands()}] == [one.__name__ for one in commands()]

@@ -11,7 +11,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from elastogeo.cli.drive import drive
+from elastogeo.cli.answers.drive import drive
 from elastogeo.errors import FormatError
 
 Run = Callable[..., tuple[int, str]]

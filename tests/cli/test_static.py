@@ -15,7 +15,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from elastogeo.cli.static import static
+from elastogeo.cli.answers.static import static
 from elastogeo.errors import FormatError, InputError
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"

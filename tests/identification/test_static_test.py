@@ -324,7 +324,7 @@ def test_six_sensors_count_on_the_resolution() -> None:
 def test_another_instrument_is_sent_to_its_own_command(make_test) -> None:
     with pytest.raises(InputError, match=r"was made with a loaded-ball-bar; .* use: elastogeo identify"):
         evaluate_static(make_test("wFYXt"))
-    with pytest.raises(InputError, match=r"was made with a ball-roller; .* use: elastogeo brbd"):
+    with pytest.raises(InputError, match=r"was made with a ball-roller; .* use: elastogeo stiffness"):
         evaluate_static(read_test(EXAMPLES / "ball-roller"))
 
 

@@ -7,27 +7,15 @@ one clear error on standard error.
 from __future__ import annotations
 
 import sys
-from typing import Annotated
+from collections.abc import Callable, Iterator
+from importlib import import_module
+from pkgutil import iter_modules, walk_packages
+from typing import Annotated, Any
 
 import typer
 
-from elastogeo import __version__
-from elastogeo.cli import (
-    brbd,
-    compare,
-    confounding,
-    demo,
-    diagnose,
-    drive,
-    identify,
-    machines,
-    new,
-    record,
-    simulate,
-    static,
-    whatif,
-)
 from elastogeo.errors import ElastogeoError, UnsupportedError
+from elastogeo.version import VERSION
 
 EXAMPLE = """\
 Where is this machine soft, where is it crooked, how sure are we, and what could this test not tell?
@@ -39,14 +27,36 @@ First steps:
   elastogeo identify my-test            identify it
 """
 
+ORDER = (
+    "new", "simulate", "identify", "diagnose", "compare", "whatif", "stiffness", "static", "drive", "record", "inspect",
+    "calibrate", "explain", "machines", "demo",
+)  # fmt: skip
+"""In which the help lists the commands; one that is not here comes last."""
+
 app = typer.Typer(rich_markup_mode=None, help=EXAMPLE, no_args_is_help=True, pretty_exceptions_enable=False)
-for module in (demo, new, simulate, identify, diagnose, whatif, compare, brbd, static, drive, record, confounding, machines):
-    app.command()(getattr(module, module.__name__.rpartition(".")[2]))
+
+
+def commands() -> list[Callable[..., Any]]:
+    """The commands, as the help lists them: of every file in a wing of this room the function of its name."""
+    found = {module.rpartition(".")[2]: module for module in _files()}
+    known = {name: place for place, name in enumerate(ORDER)}
+    return [getattr(import_module(found[name]), name) for name in sorted(found, key=lambda n: (known.get(n, len(known)), n))]
+
+
+def _files() -> Iterator[str]:
+    package = import_module(__name__.rpartition(".")[0])
+    for wing in walk_packages(package.__path__, f"{package.__name__}."):
+        if wing.ispkg:
+            yield from (file.name for file in iter_modules(import_module(wing.name).__path__, f"{wing.name}."))
+
+
+for command in commands():
+    app.command()(command)
 
 
 def _version(wanted: bool) -> None:
     if wanted:
-        print(f"elastogeo {__version__}")
+        print(f"elastogeo {VERSION}")
         raise typer.Exit
 
 

@@ -12,7 +12,7 @@ from elastogeo.formats.documents.calibrations import (
     read_calibration,
 )
 from elastogeo.formats.documents.feed_drives import read_drives
-from elastogeo.formats.documents.machine_tests import example_test, full_turn, read_test
+from elastogeo.formats.documents.machine_tests import example_test, full_turn, read_test, run_files_of
 from elastogeo.formats.documents.machines import find_machine, machines, read_machine, shipped_machines
 from elastogeo.formats.documents.simulated_tests import simulate
 from elastogeo.formats.documents.simulations import Simulation, poses_of, read_simulation, write_runs
@@ -83,6 +83,7 @@ __all__ = [
     "read_simulation",
     "read_table",
     "read_test",
+    "run_files_of",
     "run_formats",
     "said_gap",
     "said_time",

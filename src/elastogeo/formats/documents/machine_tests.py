@@ -151,6 +151,12 @@ def read_test_document(path: Path) -> tuple[Path, TestDocument]:
     return file, document
 
 
+def run_files_of(path: str | Path) -> tuple[Path, ...]:
+    """The run files that a test names, whether they are there or not."""
+    file, document = read_test_document(Path(path))
+    return tuple(file.parent / run.file for run in document.runs)
+
+
 def example_test() -> Path:
     """The folder of the example test that comes with elastogeo.
 

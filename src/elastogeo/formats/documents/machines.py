@@ -74,7 +74,12 @@ def read_machine(path: str | Path) -> Machine:
     MachineError
         If the topology is none, or the machine contradicts itself.
     """
-    path = shipped_machines().get(str(path), Path(path))
+    shipped = shipped_machines()
+    if str(path) not in shipped and Path(path).suffix != ".toml":
+        raise FormatError(
+            f"there is no machine {str(path)!r}: elastogeo ships with {', '.join(shipped)}; a file ends in .toml"
+        )
+    path = shipped.get(str(path), Path(path))
     table = read_document(path)
     check_schema(table, SCHEMA, str(path))
     document = build(MachineDocument, table, str(path))

@@ -104,7 +104,7 @@ _EVALUATED = {"loading-cycles": _of_cycles, "cartesian-stiffness": _of_probes, "
 
 def _of_another_instrument(test: MachineTest) -> str:
     name = test.instrument
-    command = "brbd" if name == "ball-roller" else "identify"
+    command = "stiffness" if name == "ball-roller" else "identify"
     return (
         f"test {test.name!r} was made with a {name}; a static test is made with static-force, displacement-probes or "
         f"sensor-frame. For this one use: elastogeo {command}"

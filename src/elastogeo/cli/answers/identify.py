@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import elastogeo as eg
 from elastogeo.cli.options import (
     AsJson,
     Levels,
@@ -36,14 +37,18 @@ def identify(
       elastogeo identify my-test --report my-report
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import read_test
-    from elastogeo.identification import identify as identified
-    from elastogeo.identification import with_question
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = with_question(
-            read_test(test), parameters, prefer, reference_level(reference), level, without_level, reciprocal, robust
-        )
+        asked = eg.read_test(test)
         step("identifying")
-        result = identified(asked)
+        result = eg.identify(
+            asked,
+            parameters=parameters,
+            prefer=prefer,
+            reference=reference_level(reference),
+            levels=level,
+            without_levels=without_level,
+            reciprocal=reciprocal,
+            robust=robust,
+        )
     screen.show(result, report, as_json)

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+import elastogeo as eg
 from elastogeo.cli.options import AsJson, Report, TestPath
 
 
@@ -17,22 +18,21 @@ def static(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Evaluate a static test: force ramps, weights, displacement probes, a frame of sensors.
+    """Evaluate a static test.
 
-    Beside the joint compliances that the test asks for: hysteresis and static compliance of force ramps (and where in the
-    drive the loaded axis yields, if its positions were recorded), the Cartesian stiffness from displacement probes, the
-    twist of the tool and the sensor that stands out from a sensor frame.
+    Force ramps, weights, displacement probes, a frame of sensors. Beside the joint compliances that the test asks for:
+    hysteresis and static compliance of force ramps (and where in the drive the loaded axis yields, if its positions were
+    recorded), the Cartesian stiffness from displacement probes, the twist of the tool and the sensor that stands out from a
+    sensor frame.
 
     \b
     Example:
       elastogeo static examples/static-force --report my-report
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import read_test
-    from elastogeo.identification.static_tests import evaluate_static
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = read_test(test)
+        asked = eg.read_test(test)
         step("evaluating")
-        found = evaluate_static(asked, feedback)
+        found = eg.evaluate_static(asked, feedback)
     screen.show(found, report, as_json)

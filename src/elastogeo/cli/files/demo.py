@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+import elastogeo as eg
 from elastogeo.cli.options import AsJson
 
 
@@ -22,7 +23,10 @@ def demo(
     Example:
       elastogeo demo --report demo-report
     """
-    from elastogeo.cli.identify import identify
-    from elastogeo.formats import example_test
+    from elastogeo.cli import screen
 
-    identify(example_test(), report=report, as_json=as_json)
+    with screen.progress("reading the runs", quiet=as_json) as step:
+        test = eg.read_test(eg.example_test())
+        step("identifying")
+        result = eg.identify(test)
+    screen.show(result, report, as_json)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import elastogeo as eg
 from elastogeo.cli.options import AsJson, Parameters, Reference, Report, TestPath, reference_level
 
 
@@ -15,19 +16,16 @@ def diagnose(
     """Rank the faults of a ball bar test.
 
     Asks for backlash, play, squareness, gains, straightness, cyclic, servo and reversal errors where the test asks for
-    nothing of its own. Says what could not be told apart, and gives the ISO 230-4 parameters of the traces.
+    nothing of its own. Says what could not be distinguished, and gives the ISO 230-4 parameters of the traces.
 
     \b
     Example:
       elastogeo diagnose my-test -p ball-bar-xy
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import read_test
-    from elastogeo.identification import diagnose as diagnosed
-    from elastogeo.identification import identify, with_question
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = with_question(read_test(test), parameters, None, reference_level(reference))
+        asked = eg.read_test(test)
         step("identifying")
-        found = diagnosed(identify(asked))
+        found = eg.diagnose(asked, parameters=parameters, reference=reference_level(reference))
     screen.show(found, report, as_json)

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+import elastogeo as eg
+
 
 def new(
     folder: Annotated[Path, typer.Argument(help="Folder to make; it must not exist.")],
@@ -34,9 +36,8 @@ def new(
       elastogeo identify my-test
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import new_test
 
-    written = new_test(folder, machine, force or (), repeats, instrument, [e / 1000 for e in engagement or ()])
+    written = eg.new_test(folder, machine, force or (), repeats, instrument, [e / 1000 for e in engagement or ()])
     if instrument == "drive":
         screen.say(f"Made {written}. Put the logs where it says, then: elastogeo drive {folder}")
     else:

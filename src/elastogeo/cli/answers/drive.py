@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+import elastogeo as eg
 from elastogeo.cli.options import AsJson, Report
 
 
@@ -26,11 +27,11 @@ def drive(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Identify the torque balance of feed drives: inertia, friction, constant, loads.
+    """Identify the torque balance of feed drives.
 
-    A log names its channels current_x, position_x (velocity_x, acceleration_x) with their units; a drive file says it for
-    logs that do not. Every run is predicted from all others, models of the friction are compared by that, and the parameters
-    of the one that the runs support come first, axis by axis.
+    Inertia, friction, constant, loads. A log names its channels current_x, position_x (velocity_x, acceleration_x) with
+    their units; a drive file says it for logs that do not. Every run is predicted from all others, models of the friction
+    are compared by that, and the parameters of the one that the runs support come first, axis by axis.
 
     \b
     Example:
@@ -39,12 +40,10 @@ def drive(
     from dataclasses import replace
 
     from elastogeo.cli import screen
-    from elastogeo.formats import read_drives
-    from elastogeo.identification import identify_drives
 
     with screen.progress("reading the logs", quiet=as_json) as step:
-        test = read_drives(logs, tuple(axis or ()), tuple(held_out or ()))
+        test = eg.read_drives(logs, tuple(axis or ()), tuple(held_out or ()))
         step("identifying the drives")
         wanted = dict(entry.rpartition("=")[::2] for entry in model or ())
-        result = identify_drives(replace(test, compare=compare and test.compare, models={**test.models, **wanted}))
+        result = eg.identify_drives(replace(test, compare=compare and test.compare, models={**test.models, **wanted}))
     screen.show(result, report, as_json)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
+import elastogeo as eg
 from elastogeo.cli.options import AsJson
 
 
@@ -21,15 +21,16 @@ def machines(
       elastogeo machines hermle_c50
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import find_machine, read_machine, shipped_machines
     from elastogeo.report import Table, view_of
 
     if name:
-        screen.show(find_machine(name, Path.cwd()), None, as_json)
+        screen.show(eg.read_machine(name), None, as_json)
         return
-    found = {key: read_machine(path) for key, path in shipped_machines().items()}
+    found = eg.machines()
     if as_json:
-        screen.show_json({"machines": [view_of(machine).document for machine in found.values()]})
+        screen.show_json(
+            {"schema": "elastogeo.machines/1", "machines": [view_of(machine).document for machine in found.values()]}
+        )
     else:
         rows = tuple((key, m.name, m.topology.compact, m.topology.iso) for key, m in found.items())
         screen.show_table(Table(("name", "machine", "topology", "ISO 10791-6"), rows, words=(0, 1, 2, 3)))

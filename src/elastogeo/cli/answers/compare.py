@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+import elastogeo as eg
 from elastogeo.cli.options import AsJson, Parameters, Reference, Report, reference_level
 
 
@@ -18,19 +19,16 @@ def compare(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Say what changed between two tests of one machine, and whether it is significant.
+    """Say what changed between two tests, and how surely.
 
     \b
     Example:
       elastogeo compare test-2025 test-2026
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import read_test
-    from elastogeo.identification import compare as compared
-    from elastogeo.identification import identify, with_question
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = [with_question(read_test(test), parameters, None, reference_level(reference)) for test in (before, after)]
+        tests = eg.read_test(before), eg.read_test(after)
         step("identifying both tests")
-        found = compared(*(identify(test) for test in asked))
+        found = eg.compare(*tests, parameters=parameters, reference=reference_level(reference))
     screen.show(found, report, as_json)

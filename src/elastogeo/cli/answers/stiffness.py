@@ -1,4 +1,4 @@
-"""`elastogeo brbd`: the stiffness of a machine in every direction, from motor currents and encoders."""
+"""`elastogeo stiffness`: the stiffness of a machine in every direction, from motor currents and encoders."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from typing import Annotated
 
 import typer
 
+import elastogeo as eg
 from elastogeo.cli.options import AsJson, Report, TestPath
 
 
-def brbd(
+def stiffness(
     test: TestPath,
     rig_test: Annotated[
         Path | None, typer.Option("--rig-test", help="The same test with a rig of known compliance in the loop.")
@@ -25,15 +26,13 @@ def brbd(
 
     \b
     Example:
-      elastogeo brbd my-test --report my-report
+      elastogeo stiffness my-test --report my-report
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import read_test
-    from elastogeo.identification import map_stiffness
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = read_test(test)
-        other = read_test(rig_test) if rig_test else None
+        asked = eg.read_test(test)
+        other = eg.read_test(rig_test) if rig_test else None
         step("identifying")
-        found = map_stiffness(asked, other)
+        found = eg.map_stiffness(asked, other)
     screen.show(found, report, as_json)

@@ -1,4 +1,4 @@
-"""`elastogeo confounding`: what a test can and cannot tell apart, before or after it is run."""
+"""`elastogeo explain`: what a test can and cannot distinguish, before or after it is run."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ from typing import Annotated
 
 import typer
 
+import elastogeo as eg
 from elastogeo.cli.options import AsJson, Parameters, Prefer, Reciprocal, Reference, Report, TestPath, reference_level
 
 
-def confounding(
+def explain(
     test: TestPath,
     parameters: Parameters = None,
     prefer: Prefer = None,
@@ -21,17 +22,19 @@ def confounding(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Say what a test can and cannot tell apart.
+    """Say what a test can and cannot distinguish.
 
     \b
     Example, before any run has been made:
-      elastogeo confounding my-test --planned 360 -p 'C_*'
+      elastogeo explain my-test --planned 360 -p 'C_*'
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import read_test
-    from elastogeo.identification import explain, with_question
 
-    asked = with_question(
-        read_test(test, planned=planned), parameters, prefer, reference_level(reference), reciprocal=reciprocal
+    found = eg.explain(
+        eg.read_test(test, planned=planned),
+        parameters=parameters,
+        prefer=prefer,
+        reference=reference_level(reference),
+        reciprocal=reciprocal,
     )
-    screen.show(explain(asked), report, as_json)
+    screen.show(found, report, as_json)

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+import elastogeo as eg
 from elastogeo.cli.options import AsJson, Parameters, Reference, Report, TestPath, reference_level
 
 
@@ -19,18 +20,18 @@ def whatif(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Predict the trace and its circular deviation with named faults corrected.
+    """Predict the trace with named faults corrected.
+
+    With the circular deviation of ISO 230-4, before and after, and the peak to peak of each run.
 
     \b
     Example:
       elastogeo whatif my-test --correct B_XX --correct "E_??1"
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import read_test
-    from elastogeo.identification import identify, what_if, with_question
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = with_question(read_test(test), parameters, None, reference_level(reference))
+        asked = eg.read_test(test)
         step("identifying")
-        predicted = what_if(identify(asked), correct)
+        predicted = eg.what_if(asked, correct, parameters=parameters, reference=reference_level(reference))
     screen.show(predicted, report, as_json)
