@@ -82,8 +82,9 @@ def build_ball_bar_test(
     prefer: Sequence[str] = (),
     repeats: int = 1,
     sense: int = 1,
+    set_up_per_run: bool = False,
 ) -> MachineTest:
-    """A loaded ball bar test with blank readings: one run per force and repeat."""
+    """A loaded ball bar test with blank readings: one run per force and repeat; the set-up counts as right by default."""
     machine = build_machine(machine) if isinstance(machine, str) else machine
     angle = full_circle(readings) if angle is None else angle
     runs = tuple(
@@ -92,7 +93,8 @@ def build_ball_bar_test(
         for k in range(1, repeats + 1)
     )
     setup = LoadedBallBar(circle or Circle(150.0), feed=2000 / 60)
-    return MachineTest("test", machine, setup, runs, Question(tuple(parameters), reference, tuple(prefer)))
+    question = Question(tuple(parameters), reference, tuple(prefer), set_up_per_run=set_up_per_run)
+    return MachineTest("test", machine, setup, runs, question)
 
 
 @pytest.fixture(scope="session")

@@ -141,7 +141,7 @@ def test_several_reference_runs_are_averaged(make_test: MakeTest) -> None:
     systems = systems_of(noisy)
     assert systems.references == 3
     assert systems.levels == (64.0,)
-    assert systems.applied == (36.0, 100.0)
+    assert systems.applied.forces == (36.0, 100.0)
     mean = np.mean([run.columns["radial"] for run in noisy.runs[:3]], axis=0)
     for run, raw in zip(systems.runs, noisy.runs[3:], strict=True):
         np.testing.assert_allclose(run.reading, raw.columns["radial"] - mean, atol=1e-15)

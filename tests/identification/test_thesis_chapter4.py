@@ -270,7 +270,7 @@ def test_one_force_level_cannot_tell_load_from_geometry(make_test: MakeTest) -> 
     assert "E_XX1" in found.stands_for("C_XXX")
     checks = {check.name: check for check in identify(test).verdict}
     assert not checks["forces distinct"].passed
-    assert "two distinct forces are mandatory" in sentence_of(checks["forces distinct"])
+    assert "Measure at two clearly different forces" in sentence_of(checks["forces distinct"])
     assert not checks["identifiable"].passed
 
 

@@ -267,7 +267,7 @@ def test_one_level_is_refused_in_words(make_test: MakeTest) -> None:
         (parameter,) = (p for p in result.parameters if p.name == name)
         assert parameter.separated
         assert tuple(parameter.stands_for) == (name,)
-    assert "two distinct forces are mandatory" in sentence_of(verdict["forces distinct"])
+    assert "Measure at two clearly different forces" in sentence_of(verdict["forces distinct"])
     assert result.models is None
     assert result.consistency is None
 

@@ -75,7 +75,7 @@ def test_keys_and_plain_types(name, request) -> None:
     assert json.loads(json.dumps(document, allow_nan=False)) == document
 
 
-def test_numbers_are_those_of_the_result(rich) -> None:
+def test_numbers_are_those_of_the_result(rich, separated) -> None:
     document = identification_json(rich)
     assert document["schema"] == "elastogeo.identification/1"
     assert document["software"] == {"name": "elastogeo", "version": elastogeo.__version__}
@@ -91,7 +91,10 @@ def test_numbers_are_those_of_the_result(rich) -> None:
     }
     first, parameter = document["parameters"][0], rich.parameters[0]
     assert first["value"] == parameter.value
-    assert first["interval95"] == list(parameter.interval)
+    assert first["interval95"] is first["standard_uncertainty"] is first["degrees_of_freedom"] is None
+    by_run = identification_json(separated)["parameters"][0]
+    assert by_run["interval95"] == list(separated.parameters[0].interval)
+    assert by_run["standard_uncertainty"] == separated.parameters[0].standard_uncertainty > 0
     assert first["peak_to_peak_um"] == 1000 * parameter.peak_to_peak
     assert first["stands_for"] == parameter.stands_for
     assert document["rank"] == 6
@@ -202,7 +205,10 @@ def test_what_is_not_separated_says_so(mixed) -> None:
     assert apart["C_XXX"] is False
     assert apart["E_Xt0"] is True
     assert document["levels"][0]["elastic_um"] is None
-    assert [check["name"] for check in document["verdict"] if check["decisive"]] == ["separated"]
+    assert [check["name"] for check in document["verdict"] if check["decisive"] and not check["passed"]] == [
+        "forces distinct",
+        "separated",
+    ]
 
 
 def test_diagnosis(separated, mixed) -> None:

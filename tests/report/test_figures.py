@@ -78,9 +78,9 @@ def bars_of(figure) -> list[tuple[float, float, float]]:
     return [(length, *ends) for length, ends in zip(bars, whiskers, strict=True)]
 
 
-def test_contributions_are_signed_and_ranked_with_their_intervals(rich) -> None:
-    drawn = bars_of(figure(rich, "contributions"))
-    ranked = sorted(rich.parameters, key=lambda p: abs(p.peak_to_peak))
+def test_contributions_are_signed_and_ranked_with_their_intervals(separated) -> None:
+    drawn = bars_of(figure(separated, "contributions"))
+    ranked = sorted(separated.parameters, key=lambda p: abs(p.peak_to_peak))
     for (length, low, high), p in zip(drawn, ranked, strict=True):
         assert length == pytest.approx(1000 * p.peak_to_peak)
         assert (high - low) / abs(length) == pytest.approx((p.interval[1] - p.interval[0]) / abs(p.value))

@@ -8,6 +8,7 @@ per run.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import solve_triangular
@@ -18,6 +19,9 @@ from elastogeo.estimate.solution import Solution, solve
 
 _SINGULAR = 1e-10
 """Eigenvalues of `I - H` below this belong to combinations that one run alone determines."""
+
+_MOST_TIMES = 4
+"""How often a test is repeated, at most, to see whether its runs would be enough."""
 
 _HANGING = 1e-4
 """Share of the standard uncertainty of a parameter, counted by reading, from which on such a combination matters to it."""
@@ -46,19 +50,10 @@ def solve_by_run(runs: Sequence[Factor], labels: Sequence[str]) -> Solution:
         If there are too few runs for a parameter: some combination rests on one run alone.
     """
     chosen = [select(run, labels) for run in runs]
-    plain = solve(merge(*chosen))
-    norms = merge(*chosen).column_norms
-    whole = merge(*chosen).R / norms
-    roots = [solve_triangular(whole, (run.R / norms).T, trans="T").T for run in chosen]
-    lifted = [_lifted(root) for root in roots]
+    plain, split = solve(merge(*chosen)), _split(chosen)
     residuals = [run.z - run.R @ plain.values for run in chosen]
-    # a[g] is the bread times the adjusted design of run g: its share of the estimate is a[g] @ residual[g].
-    shares = [solve_triangular(whole, (lift @ root).T) for lift, root in zip(lifted, roots, strict=True)]
-    scores = np.array([share @ residual for share, residual in zip(shares, residuals, strict=True)])
-    alone = np.any([_resting_on(root, whole) for root in roots], axis=0)
-    degrees = np.array(
-        [0.0 if alone[k] else _degrees_of_freedom(roots, [share[k] for share in shares]) for k in range(len(norms))]
-    )
+    scores = np.array([share @ residual for share, residual in zip(split.shares, residuals, strict=True)])
+    degrees, norms = split.degrees_of_freedom(), split.norms
     if (degrees <= 1).any():
         weak = ", ".join(label for label, degree in zip(labels, degrees, strict=True) if degree <= 1)
         raise DegreesOfFreedomError(
@@ -67,6 +62,43 @@ def solve_by_run(runs: Sequence[Factor], labels: Sequence[str]) -> Solution:
         )
     covariance = scores.T @ scores / np.outer(norms, norms)
     return Solution(plain.labels, plain.values, covariance, degrees, plain.residual_std)
+
+
+def runs_needed(runs: Sequence[Factor], labels: Sequence[str]) -> int | None:
+    """How many runs give every parameter an uncertainty by run, if the test is repeated as it is; None if no number does."""
+    chosen = [select(run, labels) for run in runs]
+    for times in range(1, _MOST_TIMES + 1):
+        if (_split(chosen * times).degrees_of_freedom() > 1).all():
+            return times * len(runs)
+    return None
+
+
+@dataclass(frozen=True, slots=True)
+class _Split:
+    """How runs share in an estimate.
+
+    `roots[g]` is the triangle of run g over that of all, `shares[g]` the bread times the adjusted design of run g: what it
+    adds to the estimate, per residual.
+    """
+
+    norms: Array
+    whole: Array
+    roots: Sequence[Array]
+    shares: Sequence[Array]
+
+    def degrees_of_freedom(self) -> Array:
+        """Of the variance of each parameter, shape (p,); 0 where it rests on one run alone."""
+        alone = np.any([_resting_on(root, self.whole) for root in self.roots], axis=0)
+        each = [_degrees_of_freedom(self.roots, [share[k] for share in self.shares]) for k in range(len(self.norms))]
+        return np.where(alone, 0.0, each)
+
+
+def _split(runs: Sequence[Factor]) -> _Split:
+    every = merge(*runs)
+    whole = every.R / every.column_norms
+    roots = [solve_triangular(whole, (run.R / every.column_norms).T, trans="T").T for run in runs]
+    shares = [solve_triangular(whole, (_lifted(root) @ root).T) for root in roots]
+    return _Split(every.column_norms, whole, roots, shares)
 
 
 def _lifted(root: Array) -> Array:
@@ -94,4 +126,5 @@ def _degrees_of_freedom(roots: Sequence[Array], shares: Sequence[Array]) -> floa
     """Satterthwaite's degrees of freedom of the variance of one parameter, for independent readings of equal variance."""
     across = np.array([root.T @ share for root, share in zip(roots, shares, strict=True)])
     gram = np.diag([float(share @ share) for share in shares]) - across @ across.T
-    return float(np.trace(gram) ** 2 / np.sum(gram**2))
+    square = float(np.sum(gram**2))
+    return float(np.trace(gram) ** 2 / square) if square > 0 else 0.0

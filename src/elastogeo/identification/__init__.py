@@ -12,21 +12,20 @@ from elastogeo.identification.faults.what_if import WhatIf, what_if
 from elastogeo.identification.feed_drives.axis_drives import identify_drives
 from elastogeo.identification.feed_drives.result import AxisDrive, DriveIdentification
 from elastogeo.identification.fit import Harmonic, fitness, rmse, strongest_harmonic
-from elastogeo.identification.identification import (
-    adjacent,
+from elastogeo.identification.identification import consistency_of, identify
+from elastogeo.identification.influences import Effect, effect, effects
+from elastogeo.identification.levels import ForceLevels, ForceSpread, force_levels
+from elastogeo.identification.local import adjacent, local_estimates
+from elastogeo.identification.models import Comparison, ModelFit, compare_models
+from elastogeo.identification.physics import PHYSICALLY_CONSISTENT, Consistency, consistency
+from elastogeo.identification.preference import moving_axes, retaining_order
+from elastogeo.identification.question import (
     confounding_of,
-    consistency_of,
     effects_of,
-    identify,
-    local_estimates,
     systems_of,
     what_reciprocity_buys,
     with_question,
 )
-from elastogeo.identification.influences import Effect, effect, effects
-from elastogeo.identification.models import Comparison, ModelFit, compare_models
-from elastogeo.identification.physics import PHYSICALLY_CONSISTENT, Consistency, consistency
-from elastogeo.identification.preference import moving_axes, retaining_order
 from elastogeo.identification.reciprocity import Reciprocity, reciprocal_sources, reciprocity
 from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Trace
 from elastogeo.identification.rollers.laws import LawChoice, LawScore
@@ -52,7 +51,7 @@ from elastogeo.identification.static_tests.hysteresis import StaticHysteresis, h
 from elastogeo.identification.static_tests.loading_branches import Branch, branches_of, turning_points
 from elastogeo.identification.static_tests.result import Cartesian, LoadedPlace, LoadedRun, LoadStep, StaticResults, TwistRun
 from elastogeo.identification.static_tests.straight_line import StaticLine, static_line
-from elastogeo.identification.systems import RunSystem, Systems, merged, noise_of, run_systems, same_force
+from elastogeo.identification.systems import RunSystem, Systems, merged, noise_of, run_systems
 from elastogeo.identification.verdict import CONDITION_LIMIT
 
 __all__ = [
@@ -80,6 +79,8 @@ __all__ = [
     "Explanation",
     "Fault",
     "ForceCalibration",
+    "ForceLevels",
+    "ForceSpread",
     "Harmonic",
     "Identification",
     "LawChoice",
@@ -131,6 +132,7 @@ __all__ = [
     "evaluate_static",
     "explain",
     "fitness",
+    "force_levels",
     "hysteresis",
     "identify",
     "identify_drives",
@@ -146,7 +148,6 @@ __all__ = [
     "rmse",
     "run_dispersion",
     "run_systems",
-    "same_force",
     "shared_harmonic",
     "static_line",
     "strongest_harmonic",

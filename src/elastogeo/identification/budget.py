@@ -15,10 +15,10 @@ And by random draws (JCGM 101) through the triangles of the runs, where nothing 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
-from scipy.special import ndtr, stdtrit
 
 from elastogeo.errors import UnsupportedError
 from elastogeo.estimate import (
@@ -100,18 +100,25 @@ class Budget:
 class Agreement:
     """First order against random draws (JCGM 101, 8).
 
+    Both count every standard uncertainty as known: what is compared is the shape of the distributions and what the force in
+    the design matrix bends, not what few degrees of freedom are worth. These widen both intervals alike, by Student's
+    factor.
+
     Attributes
     ----------
     draws : MonteCarlo
+        With every standard uncertainty known.
+    interval : array, shape (p, 2)
+        95 % coverage interval of the draws, widened for the effective degrees of freedom.
     agrees : array of bool, shape (p,)
         Whether both shares are 2.5 % to within `TAIL`: else the model is not linear, or a distribution not normal, where it
         counts.
     beyond : array, shape (p, 2)
-        Share of the draws below and above the interval to first order. The scatter is drawn as normal here, and the interval
-        taken for it, whatever its degrees of freedom: few of them widen an interval and are no fault of first order.
+        Share of the draws below and above the interval to first order.
     """
 
     draws: MonteCarlo
+    interval: Array
     agrees: np.ndarray[tuple[int], np.dtype[np.bool_]]
     beyond: Array
 
@@ -156,27 +163,27 @@ def agreement(systems: Systems, solution: Solution, effects: Sequence[Effect], b
     Raises
     ------
     UnsupportedError
-        If there is no influence to draw, or the draws do not settle: a scatter with two degrees of freedom or fewer has no
-        standard deviation, and if it rules, its draws never do.
+        If there is no influence to draw, or the draws do not settle.
     """
     if not effects:
         raise UnsupportedError("the test states no systematic influence; add [[influences]] to its file to draw from them")
-    moved = _sampler(systems, solution, effects)
-    scatter, freedom = solution.standard_uncertainty, solution.degrees_of_freedom
+    draw = _sampler(systems, solution, effects)
     half = _NORMAL * budget.standard_uncertainty
     beyond, trials = np.zeros((len(half), 2)), 0
 
     def outputs(random: np.random.Generator, count: int) -> Array:
         nonlocal beyond, trials
-        values, normal = moved(random, count)
-        off = values + normal * scatter - solution.values
+        values = draw(random, count)
+        off = values - solution.values
         beyond = beyond + np.column_stack([np.sum(off < -half, axis=0), np.sum(off > half, axis=0)])
         trials += count
-        return np.asarray(values + stdtrit(freedom, ndtr(normal)) * scatter)
+        return values
 
     draws = monte_carlo(outputs, digits=1, seed=seed, most=MOST_TRIALS)
-    shares = beyond / trials
-    return Agreement(draws, np.all(np.abs(shares - (1 - COVERAGE) / 2) <= TAIL, axis=1), shares)
+    shares, values = beyond / trials, solution.values[:, np.newaxis]
+    few = coverage_factor(budget.degrees_of_freedom) / _NORMAL
+    widened = values + (draws.interval - values) * few[:, np.newaxis]
+    return Agreement(draws, widened, np.all(np.abs(shares - (1 - COVERAGE) / 2) <= TAIL, axis=1), shares)
 
 
 def _lines(contributions: Array, degrees: Array, effects: Sequence[Effect]) -> tuple[BudgetLine, ...]:
@@ -294,13 +301,12 @@ def _sensitivity(systems: Systems, solution: Solution, effect: Effect, runs: _Mo
     return np.asarray(np.linalg.solve(runs.gram.sum(axis=0), moved) / runs.norms)
 
 
-def _sampler(
-    systems: Systems, solution: Solution, effects: Sequence[Effect]
-) -> Callable[[np.random.Generator, int], tuple[Array, Array]]:
+def _sampler(systems: Systems, solution: Solution, effects: Sequence[Effect]) -> Callable[[np.random.Generator, int], Array]:
     """Draws of the parameters, shape (count, p): each trial solves the test anew, with forces and readings of its own.
 
-    Beside them what the scatter adds, as normal deviates of unit variance, correlated as the estimates are.
+    Every standard uncertainty counts as known.
     """
+    known = [replace(effect.influence, degrees_of_freedom=inf) for effect in effects]
     runs = _moments(systems, solution)
     stretch, kin = np.unique(np.array([effect.stretch for effect in effects]), axis=1, return_inverse=True)
     # Runs whose force every influence stretches alike are one run to the draws.
@@ -309,13 +315,14 @@ def _sampler(
     moment = together @ runs.moment
     shifted = np.array([together @ _shifted(systems, solution, effect, runs.norms) for effect in effects])
     loads = _loads(systems, solution, effects, runs.norms)
+    deviation = solution.standard_uncertainty * runs.norms
     # By run the covariance has no higher rank than there are runs: no Cholesky factor, but a root all the same.
     correlation = solution.covariance / np.outer(solution.standard_uncertainty, solution.standard_uncertainty)
     spreads, vectors = np.linalg.eigh(correlation)
     root = vectors * np.sqrt(np.maximum(spreads, 0.0))
 
-    def draw(random: np.random.Generator, count: int) -> tuple[Array, Array]:
-        sizes = np.column_stack([np.zeros((count, 0)), *(effect.influence.draws(random, count) for effect in effects)])
+    def draw(random: np.random.Generator, count: int) -> Array:
+        sizes = np.column_stack([np.zeros((count, 0)), *(influence.draws(random, count) for influence in known)])
         factors = (1.0 + sizes @ stretch)[:, :, np.newaxis] ** runs.powers
         moved = moment - np.einsum("ck,kgp->cgp", sizes, shifted)
         information = np.einsum("cgp,gpq,cgq->cpq", factors, gram, factors, optimize=True)
@@ -323,6 +330,7 @@ def _sampler(
         if len(loads.which):
             information, summed = information + loads.information(sizes), summed + loads.moved(sizes)
         values = np.linalg.solve(information, summed[..., np.newaxis])[..., 0]
-        return np.asarray(values / runs.norms), np.asarray(random.standard_normal((count, len(root))) @ root.T)
+        scatter = random.standard_normal((count, len(root))) @ root.T * deviation
+        return np.asarray((values + scatter) / runs.norms)
 
     return draw

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Unpack
 
 from elastogeo.estimate import Confounding
-from elastogeo.identification.identification import (
+from elastogeo.identification.question import (
     Asked,
     confounding_of,
     systems_of,

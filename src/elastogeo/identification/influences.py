@@ -17,7 +17,7 @@ import numpy as np
 
 from elastogeo.errors import InputError
 from elastogeo.estimate import Influence
-from elastogeo.identification.systems import RunSystem, Systems, same_force
+from elastogeo.identification.systems import RunSystem, Systems
 from elastogeo.machine import Array, Machine
 from elastogeo.observe import KnownInfluence, MachineTest, ObservedInfluence
 from elastogeo.sources import load_derivative
@@ -129,7 +129,7 @@ def force_offset(known: KnownInfluence, _: MachineTest, systems: Systems) -> Ite
 def force_level(known: KnownInfluence, _: MachineTest, systems: Systems) -> Iterator[Effect]:
     """The force of each level is off by a relative amount of its own, the same for all runs of the level."""
     for level in systems.levels:
-        at = np.array([float(same_force(run.force, level)) for run in systems.runs])
+        at = np.array([float(run.force == level) for run in systems.runs])
         yield Effect(_influence(known, known.relative, "relative", f" at {level:g} N"), at)
 
 

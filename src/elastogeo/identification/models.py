@@ -192,7 +192,9 @@ def _supported(fits: Sequence[ModelFit], errors: dict[str, Array]) -> str:
 
 def _extended(machine: Machine, systems: Systems, retained: Sequence[str], added: Sequence[str]) -> Systems:
     sources = select_sources(machine, [*retained, *added])
-    return run_systems(sources, machine, [run.observations for run in systems.runs], own=systems.own)
+    return run_systems(
+        sources, machine, [run.observations for run in systems.runs], own=systems.own, spread=systems.applied.spread
+    )
 
 
 def _independent(systems: Systems, labels: Sequence[str]) -> tuple[str, ...]:

@@ -25,16 +25,20 @@ class Parameter(Part):
     Attributes
     ----------
     name, unit, meaning : str
-    estimate : Estimate
-        In `unit`, with all influences.
-    interval : tuple of 2 float
-        95 % coverage interval.
+    value : float
+        In `unit`.
+    estimate : Estimate or None
+        The value with its uncertainty, all influences in it; None where the runs are too few for one, or a reference level
+        is subtracted.
+    interval : tuple of 2 float or None
+        95 % coverage interval; None where there is no `estimate`.
     stands_for : dict of str to float
         The exact combination that it represents: coefficient by name, itself first.
     peak_to_peak : float [mm]
-        Of its part of the trace at the highest force, with the sign of the value.
+        Range of its part of the trace at the highest force, zero included, with the sign of the value: what shifts all
+        readings alike counts in full.
     share : float
-        Of the sum of all absolute peak-to-peak parts, 0 to 1.
+        Of the sum of all absolute ranges but those of the set-up, 0 to 1; 0 for the set-up.
     axis : str
         The axis it sits at; empty for the set-up.
     elastic : bool
@@ -48,8 +52,9 @@ class Parameter(Part):
     name: str
     unit: str
     meaning: str
-    estimate: Estimate
-    interval: tuple[float, float]
+    value: float
+    estimate: Estimate | None
+    interval: tuple[float, float] | None
     stands_for: dict[str, float]
     peak_to_peak: float
     share: float
@@ -59,19 +64,24 @@ class Parameter(Part):
     sign: Sign | None = None
 
     @property
-    def value(self) -> float:
-        """Value, in `unit`."""
-        return self.estimate.value
+    def expanded(self) -> float | None:
+        """Expanded uncertainty U, in `unit`: half the width of `interval`; None without one."""
+        return None if self.interval is None else (self.interval[1] - self.interval[0]) / 2
 
     @property
-    def standard_uncertainty(self) -> float:
-        """Combined standard uncertainty, in `unit` (JCGM 100, 5.1)."""
-        return self.estimate.standard_uncertainty
+    def reach(self) -> float:
+        """Greatest absolute value, in `unit`, that the parameter may have: the farther end of its interval, or the value."""
+        return abs(self.value) if self.interval is None else max(map(abs, self.interval))
 
     @property
-    def degrees_of_freedom(self) -> float:
-        """Effective degrees of freedom of the standard uncertainty (JCGM 100, G.4)."""
-        return self.estimate.degrees_of_freedom
+    def standard_uncertainty(self) -> float | None:
+        """Combined standard uncertainty, in `unit` (JCGM 100, 5.1); None without `estimate`."""
+        return None if self.estimate is None else self.estimate.standard_uncertainty
+
+    @property
+    def degrees_of_freedom(self) -> float | None:
+        """Effective degrees of freedom of the standard uncertainty (JCGM 100, G.4); None without `estimate`."""
+        return None if self.estimate is None else self.estimate.degrees_of_freedom
 
 
 @dataclass(frozen=True, slots=True)

@@ -92,7 +92,8 @@ def _surest(left: Array, shared: Array, freedom: int) -> Harmonic:
         pair = left[:, 1 + 2 * k : 3 + 2 * k]
         common = shared @ pair
         rest = (pair - common).T @ (pair - common) + floor**2 * np.eye(2)
-        root = float(np.sqrt(np.linalg.det(rest) / np.linalg.det(rest + common.T @ common)))
+        within, whole = np.linalg.det(rest), np.linalg.det(rest + common.T @ common)
+        root = float(np.sqrt(within / whole)) if 0 < within < whole else 1.0
         p_value = float(fdtrc(2 * q, 2 * (freedom - 1), (1.0 - root) / root * (freedom - 1) / q))
         if p_value < surest:
             amplitude = float(np.linalg.norm(common, axis=1).max())

@@ -6,22 +6,20 @@ if it were estimated in each run anew (Frisch, Waugh and Lovell). What is left o
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.estimate import Factor, Noise, factor_blocks, merge
+from elastogeo.identification.levels import ForceLevels, ForceSpread, force_levels
 from elastogeo.machine import Array, Machine
 from elastogeo.observe import Observations
 from elastogeo.sources import Source, column_ceilings, design_rows
 
 SAME_POSE = 1e-6
 """Commands [mm, rad] that differ by less are the same pose."""
-
-SAME_FORCE = 0.5
-"""Forces [N] that differ by less are the same level."""
 
 
 OWN_TOLERANCE = 1e-9
@@ -41,7 +39,7 @@ class RunSystem:
     observations : Observations
         As observed; nothing is taken off.
     force : float [N]
-        Force level, less the reference's if one is taken off (Eq. 4.27).
+        Of its level, less the reference's if one is subtracted (Eq. 4.27).
     rows : array, shape (m, p + 1)
         `[A | y]`, less the reference's if one is taken off (Eq. 4.26), less what the run's own set-up explains of them.
     factor : Factor
@@ -105,8 +103,8 @@ class Systems:
         The set-up that every run has for itself.
     references : int
         How many reference runs were averaged and taken off from each run; 0 if none was.
-    applied : tuple of float [N]
-        The force levels that were applied, the reference among them, increasing.
+    applied : ForceLevels
+        The force levels that were applied, the reference among them.
     ceilings : array, shape (p,)
         Length that each column would have if nothing cancelled (`column_ceilings`).
     """
@@ -115,13 +113,28 @@ class Systems:
     runs: tuple[RunSystem, ...]
     own: tuple[Source, ...]
     references: int
-    applied: tuple[float, ...]
+    applied: ForceLevels
     ceilings: Array
 
     @property
     def levels(self) -> tuple[float, ...]:
         """The force levels [N] of the runs, increasing."""
-        return force_levels(run.force for run in self.runs)
+        return tuple(sorted({run.force for run in self.runs}))
+
+    @property
+    def strongest(self) -> tuple[RunSystem, ...]:
+        """The runs at the highest force."""
+        most = max(self.levels, key=abs)
+        return tuple(run for run in self.runs if run.force == most)
+
+    def range_per_unit(self, labels: Sequence[str]) -> Array:
+        """Range that a unit of each parameter gives the readings of a run at the highest force, shape (p,).
+
+        With zero in it, so that what shifts all readings alike counts in full.
+        """
+        parts = [run.design_of(labels) for run in self.strongest]
+        ranges = [np.maximum(part.max(axis=0), 0.0) - np.minimum(part.min(axis=0), 0.0) for part in parts]
+        return np.asarray(np.max(ranges, axis=0))
 
     def at(self, *levels: float) -> tuple[RunSystem, ...]:
         """The runs at these force levels [N].
@@ -131,24 +144,14 @@ class Systems:
         InputError
             If there is none at one of them.
         """
+        chosen = set()
         for level in levels:
-            if not any(same_force(run.force, level) for run in self.runs):
-                raise InputError(f"no run has the force {level:g} N; there are {', '.join(f'{x:g}' for x in self.levels)} N")
-        return tuple(run for run in self.runs if any(same_force(run.force, level) for level in levels))
-
-
-def same_force(one: float, other: float) -> bool:
-    """Whether two forces [N] are one level."""
-    return abs(one - other) <= SAME_FORCE
-
-
-def force_levels(forces: Iterable[float]) -> tuple[float, ...]:
-    """The distinct levels [N] among forces, increasing."""
-    levels: list[float] = []
-    for force in sorted(forces):
-        if not levels or not same_force(force, levels[-1]):
-            levels.append(force)
-    return tuple(levels)
+            nearest = min(self.levels, key=lambda force: abs(force - level))
+            if not self.applied.spread.agree(nearest, level):
+                there = ", ".join(f"{force:g}" for force in self.levels)
+                raise InputError(f"no run has the force {level:g} N; there are {there} N")
+            chosen.add(nearest)
+        return tuple(run for run in self.runs if run.force in chosen)
 
 
 def run_systems(
@@ -157,6 +160,7 @@ def run_systems(
     observations: Sequence[Observations],
     reference: float | None = None,
     own: Sequence[Source] = (),
+    spread: ForceSpread | None = None,
 ) -> Systems:
     """The linear system of every run.
 
@@ -171,6 +175,8 @@ def run_systems(
         not change with the load then cancels, from the readings and from the model alike.
     own : sequence of Source
         The set-up that every run has for itself.
+    spread : ForceSpread, optional
+        How well the forces of the runs are known against one another.
 
     Raises
     ------
@@ -181,15 +187,17 @@ def run_systems(
     """
     labels = [source.name for source in sources]
     rows = [design_rows(sources, machine, run) for run in observations]
-    forces = [run.force for run in observations]
-    applied = force_levels(force for run in observations for force in _applied(run))
-    is_reference = [reference is not None and same_force(force, reference) for force in forces]
+    levels = force_levels((run.force for run in observations), spread)
+    forces = [levels.level(run.force) for run in observations]
+    applied = force_levels((force for run in observations for force in _applied(run)), spread)
+    taken_off = None if reference is None or reference not in levels else levels.level(reference)
+    is_reference = [force == taken_off for force in forces]
     references = sum(is_reference)
     if reference is not None:
         if not references or references == len(forces):
-            levels = ", ".join(f"{level:g}" for level in applied)
+            there = ", ".join(f"{level:g}" for level in applied.forces)
             raise UnsupportedError(
-                f"the reference level {reference:g} N cannot be taken off: the runs are at {levels} N; "
+                f"the reference level {reference:g} N cannot be taken off: the runs are at {there} N; "
                 f"it takes a run at the reference and one at another level"
             )
         base = observations[is_reference.index(True)]
@@ -197,7 +205,7 @@ def run_systems(
             _check_same_poses(run, base)
         taken = sum(r for r, is_ref in zip(rows, is_reference, strict=True) if is_ref) / references
         rows = [r - taken for r in rows]
-        forces = [force - base.force for force in forces]
+        forces = [force - levels.level(base.force) for force in forces]
     own_columns = [design_rows(own, machine, run)[:, :-1] for run in observations]
     sizes = np.max([np.linalg.norm(columns, axis=0) / np.sqrt(len(columns)) for columns in own_columns], axis=0)
     moving = [k for k in range(len(own)) if sizes[k] > OWN_TOLERANCE]

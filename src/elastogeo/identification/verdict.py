@@ -12,9 +12,15 @@ from elastogeo.identification.budget import COVERAGE, TAIL, Agreement
 from elastogeo.identification.change import SIGNIFICANT, Change
 from elastogeo.identification.check import Check
 from elastogeo.identification.fit import Harmonic
+from elastogeo.identification.levels import ForceLevels
 from elastogeo.identification.models import Comparison
 from elastogeo.identification.result import Parameter
 from elastogeo.machine import Array
+from elastogeo.sources import Source
+
+SEPARATED = 5.0
+"""Least distance of the force levels over the uncertainty of a force.
+With less, the forces alone make a compliance uncertain by a fifth."""
 
 OUTLYING = 6.0
 """Standard deviations (robust) from which a reading is an outlier: normal noise never gets there."""
@@ -38,9 +44,30 @@ def conditioned(found: Confounding, remedy: str = "levels") -> Check:
     return Check("conditioned", found.condition_scaled <= CONDITION_LIMIT, facts)
 
 
-def forces_distinct(levels: Sequence[float]) -> Check:
-    """Whether there is more than one force level, so that what grows with the load can be told from what does not."""
-    return Check("forces distinct", len(levels) >= 2, {"levels": tuple(levels)})
+def forces_distinct(levels: ForceLevels, with_geometry: bool) -> Check:
+    """Whether the force levels are further apart than their uncertainty, so that what grows with the load can be told.
+
+    Decisive where the answer depends on it: compliance beside geometry, or compliance without any force.
+    """
+    facts = {"levels": levels.forces, "separation": levels.separation, "limit": SEPARATED}
+    apart = levels.separation >= SEPARATED
+    return Check("forces distinct", apart, facts, decisive=with_geometry or not any(levels.forces))
+
+
+def geometry_modelled(sources: Sequence[Source], reference: bool) -> Check:
+    """Whether the question holds the geometry that the readings hold, or subtracts it: else it is taken for compliance."""
+    geometric = [source.name for source in sources if not (source.elastic or is_set_up(source))]
+    return Check("geometry in the model", reference or bool(geometric), {"geometric": len(geometric)}, decisive=True)
+
+
+def is_set_up(source: Source) -> bool:
+    """Whether a source is of the set-up rather than of the machine."""
+    return source.site[0] in ("tool", "workpiece") or source.name == "E_R0"
+
+
+def influences_stated(labels: Sequence[str], reference: bool) -> Check:
+    """Whether systematic influences are in the uncertainties; not tested where there is no uncertainty."""
+    return Check("systematic influences stated", None if reference else bool(labels), {"stated": tuple(labels)})
 
 
 def separated(parameters: Sequence[Parameter]) -> Check:
@@ -49,9 +76,9 @@ def separated(parameters: Sequence[Parameter]) -> Check:
     return Check("separated", not mixed, {"mixed": mixed, "combinations": len(parameters)}, decisive=bool(mixed))
 
 
-def uncertainty_by_run(by_run: bool, runs: int, reference: bool) -> Check:
-    """Whether the uncertainties count on independent runs."""
-    return Check("uncertainty by run", by_run, {"runs": runs, "reference": reference})
+def uncertainty_by_run(by_run: bool, runs: int, reference: bool, needed: int | None) -> Check:
+    """Whether the uncertainties count on independent runs; there are none if not."""
+    return Check("uncertainty by run", by_run, {"runs": runs, "reference": reference, "needed": needed})
 
 
 def geometry_constant(change: Change, geometric: Sequence[str]) -> Check:
@@ -66,8 +93,8 @@ def first_order_enough(agreement: Agreement, parameters: Sequence[Parameter]) ->
         parameter.name: {
             "below": float(agreement.beyond[k, 0]),
             "above": float(agreement.beyond[k, 1]),
-            "low": float(agreement.draws.interval[k, 0]),
-            "high": float(agreement.draws.interval[k, 1]),
+            "low": float(agreement.interval[k, 0]),
+            "high": float(agreement.interval[k, 1]),
             "unit": parameter.unit,
         }
         for k, parameter in enumerate(parameters)

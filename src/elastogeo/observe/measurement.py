@@ -33,6 +33,9 @@ class Question:
         Whether each joint's compliance is taken as symmetric: C_dfj and C_fdj are then one parameter.
     robust : bool
         Whether outlying readings count less (Huber).
+    set_up_per_run : bool
+        Whether every run has its own set-up (`Setup.own_to_run`), where none of it is among the parameters and no reference
+        is subtracted. If not, a set-up that is not asked for counts as right.
     """
 
     parameters: tuple[str, ...] = ()
@@ -42,6 +45,7 @@ class Question:
     without_levels: Forces = ()
     reciprocal: bool = False
     robust: bool = False
+    set_up_per_run: bool = True
 
 
 @dataclass(frozen=True, slots=True)

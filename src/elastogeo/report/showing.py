@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from elastogeo.identification import Check, Parameter
-from elastogeo.report.numbers import display_unit, value_with_uncertainty
+from elastogeo.report.numbers import display_unit
 from elastogeo.report.page import save_report
 from elastogeo.report.sentences import sentence_of
-from elastogeo.report.text import label
+from elastogeo.report.text import label, said_value
 from elastogeo.report.view import Table, View, view_of
 from elastogeo.result import register
 
@@ -27,10 +27,9 @@ class _Renderer:
     def line(self, shown: Parameter | Check) -> str:
         if isinstance(shown, Check):
             return f"{_MARKS[shown.passed]}  {shown.name}: {sentence_of(shown)}"
-        unit = display_unit(shown.unit, max(map(abs, shown.interval)))
-        half = (shown.interval[1] - shown.interval[0]) / 2
-        value = value_with_uncertainty(shown.value * unit.factor, half * unit.factor)
-        return f"{label(shown)} = {value} {unit.name} (95 %)"
+        unit = display_unit(shown.unit, shown.reach)
+        level = "without an interval" if shown.interval is None else "95 %"
+        return f"{label(shown)} = {said_value(shown, unit)} {unit.name} ({level})"
 
     def summary(self, result: Any) -> str:
         view = view_of(result)

@@ -24,7 +24,7 @@ class ParameterRow:
     name : str
         The combination instead, where compliance and geometry are not told apart: no single name is right then.
     value, unit : str
-        The value is `value ± U`, where U is half the 95 % interval, in `unit`.
+        The value is `value ± U`, where U is half the 95 % interval, in `unit`; the value alone where there is none.
     peak_to_peak_um, share_percent : str
         Of its part of the trace at the highest force, with the sign of the value.
     stands_for : str
@@ -47,17 +47,22 @@ def parameter_rows(result: Identification) -> tuple[ParameterRow, ...]:
     return tuple(
         ParameterRow(
             name=label(p),
-            value=value_with_uncertainty(
-                p.value * shown[p.name].factor, (p.interval[1] - p.interval[0]) / 2 * shown[p.name].factor
-            ),
+            value=said_value(p, shown[p.name]),
             unit=shown[p.name].name,
             peak_to_peak_um=in_micrometres(p.peak_to_peak),
-            share_percent=f"{100 * p.share:.1f}",
+            share_percent=f"{100 * p.share:.1f}" if p.axis or p.share else "",
             stands_for=combination(p.stands_for),
             meaning=p.meaning if p.separated else UNTOLD,
         )
         for p in result.parameters
     )
+
+
+def said_value(parameter: Parameter, unit: DisplayUnit) -> str:
+    """`value ± U`, U half the 95 % interval; the value alone where there is none."""
+    if parameter.expanded is None:
+        return significant(parameter.value * unit.factor)
+    return value_with_uncertainty(parameter.value * unit.factor, parameter.expanded * unit.factor)
 
 
 def label(parameter: Parameter) -> str:
@@ -77,7 +82,7 @@ def all_separated(result: Identification) -> bool:
 
 def display_units(result: Identification) -> dict[str, DisplayUnit]:
     """The unit in which each parameter is shown, by its name; parameters of one kind share theirs, to compare."""
-    return shared_units((p.name, p.unit, max(map(abs, p.interval))) for p in result.parameters)
+    return shared_units((p.name, p.unit, p.reach) for p in result.parameters)
 
 
 def shared_units(values: Iterable[tuple[str, str, float]]) -> dict[str, DisplayUnit]:

@@ -12,7 +12,8 @@ from elastogeo.errors import UnsupportedError
 from elastogeo.estimate import Solution, coverage_factor
 from elastogeo.identification.change import SIGNIFICANT, Change, difference, difference_freedom
 from elastogeo.identification.check import Check
-from elastogeo.identification.identification import Asked, identified
+from elastogeo.identification.identification import identified
+from elastogeo.identification.question import Asked
 from elastogeo.identification.result import Identification
 from elastogeo.observe import MachineTest
 from elastogeo.result import Result
@@ -84,9 +85,16 @@ def compare(
     Raises
     ------
     UnsupportedError
-        If the machines have different topologies, or the tests determine no parameter in common.
+        If the machines have different topologies, the tests determine no parameter in common, or one has no uncertainty by
+        run.
     """
     before, after = identified(before, **asked), identified(after, **asked)
+    few = next((result for result in (before, after) if not result.by_run), None)
+    if few is not None:
+        raise UnsupportedError(
+            f"test {few.test.name!r} has too few runs, or subtracts a reference level: its values have no uncertainty by which "
+            f"a change could be judged; repeat the runs and ask without a reference level"
+        )
     machines = before.test.machine, after.test.machine
     if machines[0].topology != machines[1].topology:
         raise UnsupportedError(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Unpack
 
 import numpy as np
@@ -11,9 +11,9 @@ from scipy.special import fdtri
 
 from elastogeo.identification.faults.circularity import Circularity, circularity
 from elastogeo.identification.faults.enclosing_circles import Path
-from elastogeo.identification.identification import Asked, identified
+from elastogeo.identification.identification import identified
+from elastogeo.identification.question import Asked
 from elastogeo.identification.result import Identification, Parameter, Trace
-from elastogeo.identification.systems import same_force
 from elastogeo.machine import Array
 from elastogeo.observe import MachineTest
 from elastogeo.result import Result
@@ -30,15 +30,19 @@ class Fault:
     meaning : str
     axis : str
         The axis it sits at; empty for the set-up.
-    value, standard_uncertainty : float
+    value : float
         In `unit`; for a pair the amplitude.
+    standard_uncertainty : float or None
+        In `unit`; None where the runs are too few for one.
     unit : str
-    distortion, distortion_uncertainty : float [mm]
-        Peak to peak of its part of the trace, with the sign of the value, and its standard uncertainty.
+    distortion : float [mm]
+        Range of its part of the trace, with the sign of the value.
+    distortion_uncertainty : float or None [mm]
+        Its standard uncertainty.
     share : float
-        Of the sum of all absolute distortions, 0 to 1.
+        Of its parameters, together, as in the identification, 0 to 1; 0 for the set-up.
     significant : bool
-        Whether its 95 % interval excludes zero.
+        Whether its 95 % interval excludes zero; False where there is none.
     also : tuple of str
         Parameters that this test cannot tell from it.
     """
@@ -47,10 +51,10 @@ class Fault:
     meaning: str
     axis: str
     value: float
-    standard_uncertainty: float
+    standard_uncertainty: float | None
     unit: str
     distortion: float
-    distortion_uncertainty: float
+    distortion_uncertainty: float | None
     share: float
     significant: bool
     also: tuple[str, ...]
@@ -91,9 +95,7 @@ def diagnose(one: MachineTest | Identification, **asked: Unpack[Asked]) -> Diagn
     result = identified(one, **asked)
     pairs = _paired(result)
     drafts = [_fault(result, members) for members in pairs]
-    total = sum(abs(fault.distortion) for fault in drafts if fault.axis) or 1.0
-    ranked = sorted(drafts, key=lambda fault: (not fault.axis, -abs(fault.distortion)))
-    faults = tuple(replace(fault, share=abs(fault.distortion) / total if fault.axis else 0.0) for fault in ranked)
+    faults = tuple(sorted(drafts, key=lambda fault: (not fault.axis, -abs(fault.distortion))))
     return Diagnosis(result, faults, result.confounding.null, level_circularity(result))
 
 
@@ -114,7 +116,7 @@ def level_circularity(result: Identification, traces: Sequence[Trace] | None = N
     for level in result.levels:
         paths: dict[int, Path] = {}
         for trace in traces or result.traces:
-            if same_force(trace.force, level.force):
+            if trace.force == level.force:
                 paths.setdefault(runs[trace.run].sense, Path(trace.pose, trace.measured))
         found[level.force] = circularity(radius, paths.get(1), paths.get(-1))
     return found
@@ -153,12 +155,12 @@ def _fault(result: Identification, members: tuple[int, ...]) -> Fault:
         meaning=_meaning(chosen),
         axis=chosen[0].axis,
         value=value,
-        standard_uncertainty=uncertainty,
+        standard_uncertainty=uncertainty if result.by_run else None,
         unit=chosen[0].unit,
         distortion=value * per_unit,
-        distortion_uncertainty=uncertainty * per_unit,
-        share=0.0,
-        significant=_is_significant(values, covariance, result, members),
+        distortion_uncertainty=uncertainty * per_unit if result.by_run else None,
+        share=sum(parameter.share for parameter in chosen),
+        significant=result.by_run and _is_significant(values, covariance, result, members),
         also=tuple(name for parameter in chosen for name in parameter.stands_for if name != parameter.name),
     )
 

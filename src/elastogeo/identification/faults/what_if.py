@@ -12,7 +12,8 @@ import numpy as np
 from elastogeo.errors import SelectionError
 from elastogeo.identification.faults.circularity import Circularity
 from elastogeo.identification.faults.diagnosis import level_circularity
-from elastogeo.identification.identification import Asked, identified, systems_of
+from elastogeo.identification.identification import identified
+from elastogeo.identification.question import Asked, systems_of
 from elastogeo.identification.result import Identification, Trace
 from elastogeo.observe import MachineTest
 from elastogeo.result import Result

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 
 from elastogeo.errors import UnsupportedError
-from elastogeo.identification.systems import force_levels, same_force
+from elastogeo.identification.levels import force_levels
 from elastogeo.machine import Array
 from elastogeo.observe import Observations
 from elastogeo.sources import NODES, direction_weights
@@ -84,9 +84,9 @@ def curves_of(observations: Sequence[Observations]) -> Curves:
         If a run does not go around the ball, or all runs have one engagement.
     """
     levels = force_levels(run.force for run in observations)
-    if len(levels) < 2:
+    if len(levels.forces) < 2:
         raise UnsupportedError(
-            f"all runs with an engagement are at {levels[0]:.0f} N: compliance and path are not distinguished in any of "
+            f"all runs with an engagement are at {levels.forces[0]:.0f} N: compliance and path are not distinguished in any of "
             f"{len(NODES)} directions; it takes two engagements all around the ball"
         )
     at = [_at_nodes(run) for run in observations]
@@ -108,8 +108,8 @@ def curves_of(observations: Sequence[Observations]) -> Curves:
                 size * np.array([nodes(one.reading) for nodes, one in zip(at, several, strict=True)]),
             )
         )
-    of = [next(n for n, level in enumerate(levels) if same_force(run.force, level)) for run in observations]
-    return Curves(np.deg2rad(NODES), levels, np.array(of), np.array(force), np.array(reading), tuple(changes))
+    of = [levels.forces.index(levels.level(run.force)) for run in observations]
+    return Curves(np.deg2rad(NODES), levels.forces, np.array(of), np.array(force), np.array(reading), tuple(changes))
 
 
 def _at_nodes(run: Observations) -> Callable[[Array], Array]:

@@ -24,7 +24,8 @@ from elastogeo.drive import (
     with_rig,
 )
 from elastogeo.errors import InputError, UnsupportedError
-from elastogeo.identification.identification import effects_of, identify_observed, systems_of
+from elastogeo.identification.identification import identify_observed
+from elastogeo.identification.question import effects_of, systems_of
 from elastogeo.identification.rollers.curves import Curves, curves_of
 from elastogeo.identification.rollers.laws import Law, LawChoice, choose_law, fit_law, points, within_levels
 from elastogeo.identification.rollers.result import INCREMENT, MODELLED, SECANT, Stiffness, StiffnessMap

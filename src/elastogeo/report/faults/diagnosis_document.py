@@ -60,7 +60,7 @@ def _circularity(found: Circularity) -> dict[str, Any]:
 
 
 def _fault(fault: Fault, result: Identification) -> dict[str, Any]:
-    shown = described(fault, result)
+    shown, interval = described(fault, result), distortion_interval(fault, result)
     return {
         "names": shown.names,
         "meaning": shown.meaning,
@@ -69,8 +69,8 @@ def _fault(fault: Fault, result: Identification) -> dict[str, Any]:
         "unit": fault.unit,
         "standard_uncertainty": fault.standard_uncertainty,
         "distortion_um": fault.distortion * UM,
-        "distortion_uncertainty_um": fault.distortion_uncertainty * UM,
-        "distortion_interval95_um": [bound * UM for bound in distortion_interval(fault, result)],
+        "distortion_uncertainty_um": in_um(fault.distortion_uncertainty),
+        "distortion_interval95_um": None if interval is None else [bound * UM for bound in interval],
         "share": fault.share,
         "significant": fault.significant,
         "separated": shown.separated,

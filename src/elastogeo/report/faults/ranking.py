@@ -19,9 +19,10 @@ def ranking_figure(diagnosis: Diagnosis) -> Figure:
     result, bars = diagnosis.identification, []
     for fault in reversed([fault for fault in diagnosis.faults if fault.axis]):
         shown = described(fault, result)
-        low, high = (bound * UM for bound in distortion_interval(fault, result))
+        interval = distortion_interval(fault, result)
+        low, high = (bound * UM for bound in interval or (fault.distortion, fault.distortion))
         kind = kind_of(result, [p for p in result.parameters if p.name in fault.names])
         name = fill(shown.meaning if shown.separated else shown.title, _WORDS)
         share = f" · {100 * fault.share:.1f} %"
-        bars.append(Bar(name, fault.distortion * UM, low, high, share, kind, fault.significant))
+        bars.append(Bar(name, fault.distortion * UM, low, high, share, kind, fault.significant or interval is None))
     return ranked(result, bars)

@@ -10,7 +10,7 @@ from elastogeo.estimate import coverage_factor
 from elastogeo.identification import SIGNIFICANT, BeforeAfter, Diagnosis, Difference, Fault, Identification, WhatIf
 from elastogeo.report.numbers import DisplayUnit, display_unit, probability, significant, value_with_uncertainty
 from elastogeo.report.signs import sign_sentence
-from elastogeo.report.text import UM, UNTOLD, in_micrometres, label, shared_units
+from elastogeo.report.text import UM, UNTOLD, in_micrometres, label, said_value, shared_units
 
 YES, NO = "yes", "no"
 _DEVIATIONS = {"g_ccw": "G, CCW", "g_cw": "G, CW", "g_bidirectional": "G(b), both ways"}
@@ -116,8 +116,10 @@ def described(fault: Fault, result: Identification) -> Described:
     return Described((*fault.names, *fault.also), "; ".join(label(p) for p in members), UNTOLD, False, ())
 
 
-def distortion_interval(fault: Fault, result: Identification) -> tuple[float, float]:
-    """The 95 % interval [mm] of how much a fault distorts the trace."""
+def distortion_interval(fault: Fault, result: Identification) -> tuple[float, float] | None:
+    """The 95 % interval [mm] of how much a fault distorts the trace; None where there is none."""
+    if fault.distortion_uncertainty is None:
+        return None
     half = _coverage(fault, result) * fault.distortion_uncertainty
     return fault.distortion - half, fault.distortion + half
 
@@ -132,7 +134,7 @@ def diagnosis_rows(diagnosis: Diagnosis) -> tuple[DiagnosisRow, ...]:
     result = diagnosis.identification
     factors = [_coverage(fault, result) for fault in diagnosis.faults]
     sized = zip(diagnosis.faults, factors, strict=True)
-    units = shared_units((f.names[0], f.unit, abs(f.value) + k * f.standard_uncertainty) for f, k in sized)
+    units = shared_units((f.names[0], f.unit, abs(f.value) + k * (f.standard_uncertainty or 0.0)) for f, k in sized)
     machine = [fault for fault in diagnosis.faults if fault.axis]
     rows = []
     for fault, factor in zip(diagnosis.faults, factors, strict=True):
@@ -143,9 +145,9 @@ def diagnosis_rows(diagnosis: Diagnosis) -> tuple[DiagnosisRow, ...]:
                 name=shown.title,
                 meaning=shown.meaning,
                 axis=fault.axis if shown.separated else "",
-                value=value_with_uncertainty(fault.value * unit.factor, factor * fault.standard_uncertainty * unit.factor),
+                value=_with_half(fault.value, fault.standard_uncertainty, factor, unit.factor),
                 unit=unit.name,
-                distortion_um=value_with_uncertainty(fault.distortion * UM, factor * fault.distortion_uncertainty * UM),
+                distortion_um=_with_half(fault.distortion, fault.distortion_uncertainty, factor, UM),
                 share_percent=f"{100 * fault.share:.1f}" if fault in machine else "",
                 significant=YES if fault.significant else NO,
                 also=", ".join(shown.also),
@@ -160,6 +162,12 @@ def _sentence(fault: Fault, result: Identification) -> str:
     signs = [p.sign for p in result.parameters if p.name in fault.names and p.separated]
     known = len(fault.names) == 1 and fault.significant and signs and signs[0] is not None
     return sign_sentence(signs[0], fault.value, fault.unit) if known and signs[0] else ""
+
+
+def _with_half(value: float, uncertainty: float | None, coverage: float, scale: float) -> str:
+    if uncertainty is None:
+        return significant(value * scale)
+    return value_with_uncertainty(value * scale, coverage * uncertainty * scale)
 
 
 def comparison_rows(before_after: BeforeAfter) -> tuple[ComparisonRow, ...]:
@@ -194,9 +202,7 @@ def _comparison_row(before_after: BeforeAfter, found: Difference, unit: DisplayU
     ends = [
         next(p for p in result.parameters if p.name == found.name) for result in (before_after.before, before_after.after)
     ]
-    one, other = (
-        value_with_uncertainty(p.value * unit.factor, (p.interval[1] - p.interval[0]) / 2 * unit.factor) for p in ends
-    )
+    one, other = (said_value(p, unit) for p in ends)
     half = (found.interval[1] - found.interval[0]) / 2
     return ComparisonRow(
         name=label(ends[0]),

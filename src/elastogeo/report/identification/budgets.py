@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from math import isfinite
 
+from elastogeo.estimate import Estimate
 from elastogeo.identification import BudgetLine, Identification
 from elastogeo.report.numbers import pretty, significant
 from elastogeo.report.text import display_units, label
 from elastogeo.report.view import Table
+
+NONE = "–"
+"""In place of a number that there is not."""
 
 _MANY = 1000.0
 """Degrees of freedom above this are as good as infinite."""
@@ -21,9 +25,9 @@ def uncertainty_table(result: Identification) -> Table:
     rows = [
         (
             pretty(label(p)),
-            pretty(significant(p.standard_uncertainty * units[p.name].factor, 2)),
+            NONE if p.estimate is None else pretty(significant(p.estimate.standard_uncertainty * units[p.name].factor, 2)),
             units[p.name].name,
-            degrees(float(result.budget.degrees_of_freedom[k])),
+            NONE if p.estimate is None else degrees(p.estimate.degrees_of_freedom),
             pretty(significant(float(result.naive.standard_uncertainty[k]) * units[p.name].factor, 2)),
         )
         for k, p in enumerate(result.parameters)
@@ -32,13 +36,14 @@ def uncertainty_table(result: Identification) -> Table:
 
 
 def budget_tables(result: Identification) -> tuple[Table, ...]:
-    """The sorted budget of each parameter."""
-    return tuple(_budget(result, k) for k in range(len(result.parameters)))
+    """The sorted budget of each parameter that has an uncertainty."""
+    estimates = [p.estimate for p in result.parameters]
+    return tuple(_budget(result, k, estimate) for k, estimate in enumerate(estimates) if estimate is not None)
 
 
-def _budget(result: Identification, k: int) -> Table:
+def _budget(result: Identification, k: int, estimate: Estimate) -> Table:
     parameter, lines = result.parameters[k], result.budget.lines[k]
-    unit, whole = display_units(result)[parameter.name], parameter.standard_uncertainty
+    unit, whole = display_units(result)[parameter.name], estimate.standard_uncertainty
     rows = [
         (
             line.label,
@@ -51,7 +56,7 @@ def _budget(result: Identification, k: int) -> Table:
         if _share(line, whole) >= _NOTHING
     ]
     rest = [line.label for line in lines if _share(line, whole) < _NOTHING]
-    freedom = degrees(float(result.budget.degrees_of_freedom[k]))
+    freedom = degrees(estimate.degrees_of_freedom)
     return Table(
         headings=("influence", "type", "ν", f"u [{unit.name}]", "share [%]"),
         rows=tuple(rows),

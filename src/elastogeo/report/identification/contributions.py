@@ -45,8 +45,8 @@ def contributions_figure(result: Identification) -> Figure:
     bars = []
     for p in sorted(result.parameters, key=lambda p: abs(p.peak_to_peak)):
         per_unit = p.peak_to_peak / p.value * UM if p.value else 0.0
-        low, high = sorted(bound * per_unit for bound in p.interval)
-        share, sure = f" · {100 * p.share:.1f} %", not low <= 0 <= high
+        low, high = sorted(bound * per_unit for bound in p.interval or (p.value, p.value))
+        share, sure = f" · {100 * p.share:.1f} %" if p.share else "", not low <= 0 <= high
         bars.append(Bar(fill(label(p), _LINE), p.peak_to_peak * UM, low, high, share, kind_of(result, [p]), sure))
     return ranked(result, bars)
 

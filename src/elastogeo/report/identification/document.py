@@ -1,16 +1,18 @@
 """`elastogeo.identification/1`: what one test says.
 
 test, verdict : as in `envelope`
-by_run : whether the uncertainties count on independent runs; if not, on independent readings
+by_run : whether the runs are enough for an uncertainty that counts on independent runs; if not, there is none
 parameters : the retained set, [{name, value, unit, standard_uncertainty, interval95, stands_for, peak_to_peak_um, share,
     meaning, axis, elastic, separated, degrees_of_freedom, naive_standard_uncertainty, budget}]
     `stands_for` is {name: coefficient}, `peak_to_peak_um` has the sign of the value and is that at the highest force,
-    `share` is 0 to 1 of the sum of all absolute ones; `axis` is empty for the set-up, `elastic` is true if a load drives
-    it. Where `separated` is false, compliance and geometry are not told apart in what it stands for: only the sum is
-    determined, and `name`, `meaning` and `elastic` must not be taken for the cause. `standard_uncertainty`,
-    `degrees_of_freedom` and `interval95` are those of the budget; `naive_standard_uncertainty` counts on independent
-    readings. `budget` is [{label, type, distribution, degrees_of_freedom, contribution}], greatest first, `type` "A" or
-    "B", `contribution` the standard uncertainty that the influence brings, in `unit`.
+    what shifts all readings alike counts in full; `share` is 0 to 1 of the sum of all absolute ones without the set-up,
+    0 for the set-up; `axis` is empty for the set-up, `elastic` is true if a load drives it. Where `separated` is false,
+    compliance and geometry are not told apart in what it stands for: only the sum is determined, and `name`, `meaning`
+    and `elastic` must not be taken for the cause. `standard_uncertainty`, `degrees_of_freedom` and `interval95` are
+    those of the budget, null where `by_run` is false, and `budget` is empty then; `naive_standard_uncertainty` is the
+    repeatability that independent readings would have, and no uncertainty. `budget` is [{label, type, distribution,
+    degrees_of_freedom, contribution}], greatest first, `type` "A" or "B", `contribution` the standard uncertainty that
+    the influence brings, in `unit`.
 null : [name], parameters that change no reading
 confounded : [[name, name, ...]], parameters that always produce the same trace but for its size
 rank, columns : how many combinations are determined, of how many parameters
@@ -19,8 +21,8 @@ rmse_um : over all readings
 levels : [{force_N, readings, rmse_um, fitness_percent, elastic_um, geometric_um}], forces and readings less the
     reference's if one was taken off; the last two are [least, greatest] deviation that compliance, and that geometry
     without the set-up, cause; null unless every parameter is separated
-local : [{forces_N, values: [{name, value, standard_uncertainty, degrees_of_freedom, interval95, peak_to_peak_um}]}], from
-    adjacent levels
+local : [{forces_N, values: [{name, value, standard_uncertainty, degrees_of_freedom, peak_to_peak_um}]}], from adjacent
+    levels; the uncertainty is that of a scatter that is alike in all shapes of a trace
 local_change : null, or {statistic, q, degrees_of_freedom, p_value, significant, each: {name: p_value}}, whether the local
     estimates differ by more than their uncertainty
 models : null, or {supported, models: [{name, parameters, rmse_um, left_out_run_um, left_out_level_um, bic, p_value,
@@ -132,9 +134,9 @@ def _parameter(result: Identification, k: int, parameter: Parameter) -> dict[str
         "axis": parameter.axis,
         "elastic": parameter.elastic,
         "separated": parameter.separated,
-        "degrees_of_freedom": result.budget.degrees_of_freedom[k],
+        "degrees_of_freedom": parameter.degrees_of_freedom,
         "naive_standard_uncertainty": result.naive.standard_uncertainty[k],
-        "budget": [_budget_line(line) for line in result.budget.lines[k]],
+        "budget": [_budget_line(line) for line in result.budget.lines[k]] if result.by_run else [],
         "monte_carlo": None if result.agreement is None else _draws(result.agreement, k),
     }
 
@@ -143,7 +145,7 @@ def _draws(agreement: Agreement, k: int) -> dict[str, Any]:
     """What random draws say of one parameter, and whether the first order agrees."""
     return {
         "standard_uncertainty": agreement.draws.standard_uncertainty[k],
-        "interval95": agreement.draws.interval[k],
+        "interval95": agreement.interval[k],
         "trials": agreement.draws.trials,
         "agrees": bool(agreement.agrees[k]),
     }
@@ -171,7 +173,7 @@ def _level(level: Level, separated: bool) -> dict[str, Any]:
 
 
 def _local(local: Local) -> dict[str, Any]:
-    solution, bounds = local.solution, local.solution.interval()
+    solution = local.solution
     return {
         "forces_N": local.forces,
         "values": [
@@ -180,7 +182,6 @@ def _local(local: Local) -> dict[str, Any]:
                 "value": solution.values[k],
                 "standard_uncertainty": solution.standard_uncertainty[k],
                 "degrees_of_freedom": solution.degrees_of_freedom[k],
-                "interval95": bounds[k],
                 "peak_to_peak_um": local.peak_to_peak[name] * UM,
             }
             for k, name in enumerate(solution.labels)

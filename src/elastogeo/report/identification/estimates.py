@@ -18,20 +18,19 @@ _LONG = 12
 
 
 def local_figure(result: Identification) -> Figure:
-    """Local estimates from neighbouring force levels with their 95 % intervals, against the global one (Figure 4.13)."""
+    """Local estimates from neighbouring force levels with standard uncertainties, against the global one (Figure 4.13)."""
     shown = display_units(result)
     figure, axes = grid(len(result.parameters), 3 if len(result.parameters) != 4 else 2, 1.85)
-    bounds = result.solution.interval()
-    for ax, parameter, interval in zip(axes, result.parameters, bounds, strict=True):
+    for ax, parameter in zip(axes, result.parameters, strict=True):
         unit = shown[parameter.name]
-        _whole(ax, parameter.value * unit.factor, interval * unit.factor)
+        _whole(ax, parameter.value * unit.factor, np.array(parameter.interval or (parameter.value,) * 2) * unit.factor)
         for local in result.local:
             k = local.solution.labels.index(parameter.name)
             value = local.solution.values[k] * unit.factor
-            low, high = local.solution.interval()[k] * unit.factor
+            half = local.solution.standard_uncertainty[k] * unit.factor
             middle = sum(local.forces) / len(local.forces)
             ax.plot([min(local.forces), max(local.forces)], [value, value], color=BLUE, linewidth=0.8, alpha=0.6)
-            ax.plot([middle, middle], [low, high], color=BLUE, linewidth=1.2, marker="_", markersize=5)
+            ax.plot([middle, middle], [value - half, value + half], color=BLUE, linewidth=1.2, marker="_", markersize=5)
             ax.plot([middle], [value], color=BLUE, marker="o", markersize=3.5)
         _label(ax, label(parameter), unit)
     over = "" if result.reference_force is None else f" over {result.reference_force:g} N"

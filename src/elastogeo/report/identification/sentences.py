@@ -48,9 +48,41 @@ def forces_distinct(facts: Facts, passed: bool | None) -> str:
     levels = facts["levels"]
     if passed:
         return f"{len(levels)} force levels, {levels[0]:g} to {levels[-1]:g} N."
+    if not any(levels):
+        return "No run has a force: nothing can be said of compliance. Load the machine, or ask for geometry alone."
+    if len(levels) == 1:
+        return (
+            f"All runs are at {levels[0]:g} N, within the uncertainty of their forces: what grows with the load cannot be "
+            f"distinguished from what does not. Measure at two clearly different forces."
+        )
     return (
-        f"All runs are at {levels[0]:g} N: what grows with the load cannot be distinguished from what does not; "
-        f"two distinct forces are mandatory."
+        f"{len(levels)} force levels, {levels[0]:g} to {levels[-1]:g} N, are only {facts['separation']:.2g} times their "
+        f"uncertainty apart (wanted: {facts['limit']:g}): the forces alone decide what counts as compliance. Measure at "
+        f"forces further apart, or state how well they are known (influence force-level)."
+    )
+
+
+@says("geometry in the model")
+def geometry_modelled(facts: Facts, passed: bool | None) -> str:  # noqa: ARG001
+    """Whether the geometry that the readings hold is in the model."""
+    if passed:
+        return "The geometry that the readings hold is in the model, or subtracted with the reference level."
+    return (
+        "The question holds compliance and no geometry, and no reference level is subtracted: the machine's geometry is "
+        "taken for compliance. Ask for both (the default, or the preset loaded-xy), or subtract a reference level."
+    )
+
+
+@says("systematic influences stated")
+def influences_stated(facts: Facts, passed: bool | None) -> str:
+    """Which systematic influences are in the uncertainties."""
+    if passed is None:
+        return "Not tested: with a reference level subtracted there is no uncertainty that they could be in."
+    if passed:
+        return f"The uncertainties hold {', '.join(dict.fromkeys(facts['stated']))}."
+    return (
+        "The test states no systematic influence: no uncertainty of the force, of the bar's length or of its temperature is "
+        "in the intervals. State what is known under [[influences]]."
     )
 
 
@@ -71,14 +103,16 @@ def separated(facts: Facts, passed: bool | None) -> str:
 @says("uncertainty by run")
 def uncertainty_by_run(facts: Facts, passed: bool | None) -> str:
     """What the uncertainties assume to be independent."""
-    runs, reference = facts["runs"], facts["reference"]
+    runs, needed = facts["runs"], facts["needed"]
     if passed:
         return f"The uncertainties come from the scatter of {runs} runs, not of readings."
-    why = "a reference level is subtracted" if reference else f"{runs} run{'s are' if runs > 1 else ' is'} too few"
-    return (
-        f"The uncertainties assume independent readings, because {why}. Readings along a trace rarely are: repeat the runs"
-        f"{' and ask without a reference level' if reference else ''}."
-    )
+    if facts["reference"]:
+        return (
+            "No interval: a reference level is subtracted, and readings along a trace are not independent. Ask without a "
+            "reference level."
+        )
+    remedy = "repeat the runs" if needed is None else f"it takes {needed} runs like these"
+    return f"No interval: {runs} run{'s are' if runs > 1 else ' is'} too few to show how far runs scatter; {remedy}."
 
 
 @says("geometry constant")
@@ -106,7 +140,7 @@ def first_order_enough(facts: Facts, passed: bool | None) -> str:
     instead = "; ".join(f"{name} {drawn_interval(drawn)}" for name, drawn in facts["apart"].items())
     return (
         f"The interval to first order should leave {tail} of {trials} on either side, and leaves: {beyond}. A distribution "
-        f"that is not normal, or a model that is not linear, decides. Use the interval of the trials instead: {instead}."
+        f"that is not normal, or a model that is not linear, decides. The interval given is that of the trials: {instead}."
     )
 
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MultipleLocator
 
-from elastogeo.identification import Identification, Trace, same_force
+from elastogeo.identification import Identification, Trace
 from elastogeo.report.drawing.circles import (
     Scale,
     around,
@@ -72,7 +72,7 @@ def residuals_figure(result: Identification) -> Figure:
 
 def of_level(result: Identification, force: float) -> Iterator[tuple[Trace, bool]]:
     """The traces of a level, each with whether it repeats one; repeats first, so that they are drawn below."""
-    chosen = [trace for trace in result.traces if same_force(trace.force, force)]
+    chosen = [trace for trace in result.traces if trace.force == force]
     yield from ((trace, True) for trace in chosen[1:])
     yield chosen[0], False
 

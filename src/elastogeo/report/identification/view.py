@@ -31,6 +31,7 @@ from elastogeo.report.text import (
     label,
     labels,
     parameter_rows,
+    said_value,
 )
 from elastogeo.report.view import KeyValue, Section, Table, View, attention_sentence, said, views
 
@@ -148,8 +149,8 @@ def _sections(result: Identification) -> Iterator[Section]:
         yield _models(result, result.models)
     if result.local:
         paragraphs = (
-            "Each local estimate uses two neighbouring force levels only. If they drift with the force beyond their "
-            "intervals, the machine is not linear, or something that does not depend on the force is taken for compliance.",
+            "Each local estimate uses two neighbouring force levels only. If they drift with the force by more than "
+            "they scatter, the machine is not linear, or something that does not depend on the force counts as compliance.",
             *change_words(result),
         )
         yield Section("Does anything change with the force?", tuple(map(pretty, paragraphs)), (picture("local", result),))
@@ -204,9 +205,8 @@ def _physics(result: Identification, found: Consistency) -> Section:
     rows = []
     for p in result.parameters:
         nearest, factor = found.constrained.get(p.name, p.value), units[p.name].factor
-        if p.elastic and abs(nearest - p.value) > _MOVED * p.standard_uncertainty:
-            half = (p.interval[1] - p.interval[0]) / 2
-            free = pretty(value_with_uncertainty(p.value * factor, half * factor))
+        if p.elastic and abs(nearest - p.value) > _MOVED * (p.standard_uncertainty or 0.0):
+            free = pretty(said_value(p, units[p.name]))
             rows.append((p.name, free, pretty(significant(nearest * factor)), units[p.name].name))
     table = Table(
         ("parameter", "free estimate ± U (95 %)", "nearest that joints can have", "unit"), tuple(rows), words=(0, 3)

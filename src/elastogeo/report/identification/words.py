@@ -77,7 +77,7 @@ def uncertainty_words(result: Identification) -> list[str]:
 
 def has_influences(result: Identification) -> bool:
     """Whether anything but the scatter is in the budget."""
-    return any(len(lines) > 1 for lines in result.budget.lines)
+    return result.by_run and any(len(lines) > 1 for lines in result.budget.lines)
 
 
 def influences(result: Identification) -> list[str]:
@@ -240,7 +240,10 @@ def _impossible(p: Parameter) -> bool:
 
 
 def _negative(p: Parameter) -> str:
-    certain = "its interval excludes zero" if p.interval[1] < 0 else "its interval includes zero"
+    if p.interval is None:
+        certain = "has no interval that could say how surely"
+    else:
+        certain = "its interval excludes zero" if p.interval[1] < 0 else "its interval includes zero"
     return (
         f"{p.name} is negative, and {certain}. No joint's own compliance can be: a load never gains energy. "
         f"It describes the readings; it is not a compliance."
