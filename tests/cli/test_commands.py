@@ -128,7 +128,7 @@ def test_what_the_data_do_not_support_ends_with_1(my_test, elastogeo):
 def test_wrong_usage_ends_with_2(elastogeo):
     assert elastogeo("identify")[0] == 2
     assert elastogeo("no-such-command")[0] == 2
-    assert elastogeo("new", "x", "--repeats", "0")[0] == 2
+    assert elastogeo("new", "x", "--repeats", "-1")[0] == 2
 
 
 def test_version_and_help_with_an_example_for_every_command(elastogeo):
