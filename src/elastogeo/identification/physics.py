@@ -12,10 +12,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import inf, sqrt
+from math import inf, isinf, sqrt
 
 import numpy as np
-from scipy.special import ndtr, stdtr
+from scipy.special import chdtri, ndtr, stdtr
 
 from elastogeo.errors import InputError
 from elastogeo.estimate import (
@@ -48,6 +48,9 @@ BY_READING = "independent readings assumed"
 LEVEL = 0.05
 """Probability of calling data contradictory that obey physics, at most."""
 
+_LEAST = 0.05
+"""Probability with which the true uncertainty is smaller than the least that its degrees of freedom allow."""
+
 
 @dataclass(frozen=True, slots=True)
 class Consistency:
@@ -60,8 +63,8 @@ class Consistency:
         or `not tested`.
     why : str
         Why it was not tested: `nothing restricted` by physics that the test determines; `few degrees of freedom`, where the
-        violation is significant if the uncertainty is taken as known, and is not with what is known of the uncertainty; or
-        `independent readings assumed` by the uncertainty of a violation that would be significant. Else empty.
+        violation is significant by the least uncertainty that they allow, and is not with what is known of the uncertainty;
+        or `independent readings assumed` by the uncertainty of a violation that would be significant. Else empty.
     constrained : dict of str to float
         The nearest estimate, by name, that symmetric positive semidefinite joints can give.
     distance : float
@@ -118,8 +121,8 @@ def consistency(
     (Brunner, Dette and Munk, doi:10.1080/01621459.1997.10473671). With a covariance that is known but for one variance this
     is Perlman's bound.
 
-    A violation within noise must be so even if the uncertainty were known exactly. If only the few degrees of freedom keep
-    it from being significant, it was **not tested**: noise explains nothing there.
+    A violation within noise must be so even by the least uncertainty that its degrees of freedom allow (95 %, chi-square).
+    If only the few degrees of freedom keep it from being significant, it was **not tested**: noise explains nothing there.
 
     Components that were not asked for restrict nothing, nor does a cross term without its mirror.
 
@@ -150,13 +153,13 @@ def consistency(
     cone = psd_cone(_measure(solution, correlated_as), found.combinations, blocks)
     nearest = project(cone, solution.values)
     degrees = min((solution.degrees_of_freedom[k] for k in np.flatnonzero(cone.restricted)), default=inf)
-    p_joint, p_joint_if_known = _p_joint(cone, nearest, solution.covariance, float(degrees))
-    p_negative, p_negative_if_known = _p_negative(cone, solution)
+    p_joint, p_joint_least = _p_joint(cone, nearest, solution.covariance, float(degrees))
+    p_negative, p_negative_least = _p_negative(cone, solution)
     looks = 2 if p_negative and cone.dimension > 1 else 1
     signs = _holm(p_negative)
     p_value = min(1.0, looks * min([p_joint, *signs.values()]))
-    if_known = looks * min([p_joint_if_known, *_holm(p_negative_if_known).values()])
-    state, why = _state(cone, nearest.inside, p_value < level, if_known < level, by_reading)
+    by_least = looks * min([p_joint_least, *_holm(p_negative_least).values()])
+    state, why = _state(cone, nearest.inside, p_value < level, by_least < level, by_reading)
     return Consistency(
         state=state,
         why=why,
@@ -243,27 +246,33 @@ def _measure(solution: Solution, correlated_as: Array | None) -> Array:
 
 
 def _p_joint(cone: PsdCone, nearest: Projection, covariance: Array, degrees: float) -> tuple[float, float]:
-    """p-value of the distance whatever the truth; and if the uncertainty were known."""
+    """p-value of the distance whatever the truth; and by the least uncertainty."""
     if not cone.dimension or nearest.inside:
         return 1.0, 1.0
     scatter = cone.directions.T @ covariance @ cone.directions
     total, square = float(np.trace(scatter)), nearest.distance_squared
     count = total**2 / float(np.sum(scatter**2))
     bound = p_value_bound(square * count / total, count, degrees, one_sided=cone.one_sided)
-    largest = square * max(1.0, cone.dimension / total)
+    largest = square * max(1.0, cone.dimension / total) / _least_variance(degrees)
     return bound, p_value_bound(largest, cone.dimension, one_sided=cone.one_sided)
 
 
 def _p_negative(cone: PsdCone, solution: Solution) -> tuple[dict[str, float], dict[str, float]]:
-    """One-sided p-value of each parameter that no physical joints make negative; and if the uncertainty were known."""
+    """One-sided p-value of each parameter that no physical joints make negative; and by its least uncertainty."""
     own = np.eye(len(solution.labels))
     ratios = solution.values / solution.standard_uncertainty
     never = [k for k, unit in enumerate(own) if is_never_negative(cone, unit)]
-    estimated = {solution.labels[k]: float(stdtr(solution.degrees_of_freedom[k], ratios[k])) for k in never}
-    return estimated, {solution.labels[k]: float(ndtr(ratios[k])) for k in never}
+    degrees = solution.degrees_of_freedom
+    estimated = {solution.labels[k]: float(stdtr(degrees[k], ratios[k])) for k in never}
+    return estimated, {solution.labels[k]: float(ndtr(ratios[k] / sqrt(_least_variance(degrees[k])))) for k in never}
 
 
-def _state(cone: PsdCone, inside: bool, significant: bool, if_known: bool, by_reading: bool) -> tuple[str, str]:
+def _least_variance(degrees: float) -> float:
+    """The least variance that its degrees of freedom allow, as a share of its estimate."""
+    return 1.0 if isinf(degrees) else float(degrees / chdtri(degrees, _LEAST))
+
+
+def _state(cone: PsdCone, inside: bool, significant: bool, by_least: bool, by_reading: bool) -> tuple[str, str]:
     """What is said, and why nothing can be."""
     if not cone.dimension:
         return NOT_TESTED, NOTHING_RESTRICTED
@@ -271,7 +280,7 @@ def _state(cone: PsdCone, inside: bool, significant: bool, if_known: bool, by_re
         return CONSISTENT, ""
     if significant:
         return (NOT_TESTED, BY_READING) if by_reading else (CONTRADICTED, "")
-    return (NOT_TESTED, FEW_DEGREES) if if_known else (WITHIN_NOISE, "")
+    return (NOT_TESTED, FEW_DEGREES) if by_least else (WITHIN_NOISE, "")
 
 
 def _holm(p_values: Mapping[str, float]) -> dict[str, float]:
