@@ -1,11 +1,13 @@
 """The house rules that no other tool checks: files, names, commands, imports."""
 
+import ast
 import importlib
 import pkgutil
 import re
 import subprocess
 import sys
 import tomllib
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -97,10 +99,57 @@ def test_no_file_has_a_name_that_says_nothing() -> None:
     assert [path for path in paths if path.name in {"utils.py", "helpers.py", "common.py"}] == []
 
 
-def test_no_source_file_is_longer_than_700_lines() -> None:
+def test_no_source_file_is_longer_than_500_lines() -> None:
     lengths = {path.relative_to(ROOT): len(path.read_text(encoding="utf-8").splitlines()) for path in SOURCES}
     assert lengths
-    assert {path: length for path, length in lengths.items() if length > 700} == {}
+    assert {path: length for path, length in lengths.items() if length > 500} == {}
+
+
+def test_no_folder_is_a_heap() -> None:
+    folders = [path for path in (ROOT / "src").rglob("*") if path.is_dir()]
+    counts = {folder.relative_to(ROOT): sum(1 for _ in folder.glob("*.py")) for folder in folders}
+    assert max(counts.values()) > 5
+    assert {folder: count for folder, count in counts.items() if count > 20} == {}
+
+
+def imports_of(path: Path) -> list[str]:
+    """The modules of elastogeo that a file imports from, those for types and those inside functions too."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    found = [node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module]
+    return [module for module in found if module.startswith("elastogeo.")]
+
+
+def test_another_room_is_entered_through_its_face() -> None:
+    """The face of a room is its `__init__`, and that of a wing too."""
+    past = []
+    for path in SOURCES:
+        room = path.relative_to(ROOT / "src" / "elastogeo").parts[0]
+        for module in imports_of(path):
+            folder = ROOT / "src" / module.replace(".", "/")
+            if module.count(".") > 1 and module.split(".")[1] != room and not folder.is_dir():
+                past.append((path.name, module))
+    assert past == []
+
+
+def test_no_file_imports_itself_by_a_detour() -> None:
+    """No circle of imports, those for types included; the faces only pass on what their room exports."""
+    inner = [path for path in SOURCES if path.name != "__init__.py"]
+    names = {".".join(path.relative_to(ROOT / "src").with_suffix("").parts): path for path in inner}
+    graph = {name: {module for module in imports_of(path) if module in names} for name, path in names.items()}
+    assert sum(map(len, graph.values())) > 300
+    TopologicalSorter(graph).prepare()
+
+
+def test_every_check_has_a_sentence() -> None:
+    """The names of checks in the rooms below and the register of report hold each other."""
+    from elastogeo.report.sentences import _sentences
+
+    named = re.compile(r"\bCheck\(\s*\"([^\"{]+)\"")
+    below = {
+        name for path in SOURCES if "report" not in path.parts for name in named.findall(path.read_text(encoding="utf-8"))
+    }
+    assert len(below) > 25
+    assert below - set(_sentences()) == set()
 
 
 def test_the_command_line_imports_nothing_heavy() -> None:

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from elastogeo.identification import diagnose
+from elastogeo.machine import Machine, parse_topology
 from elastogeo.report import MissingExtraError, html_page, save_report, view_of
 from elastogeo.report.drawing.style import force_colours, nice_step, thinned
 from elastogeo.report.drawing.svg import drawn as svg_of
@@ -58,7 +59,7 @@ def test_the_magnification_and_the_division_are_stated(rich) -> None:
     legend = [text.get_text() for text in traces.axes[0].get_legend().get_texts()]
     levels = [f"CCW, {force} N" for force in (706, 580, 454, 328, 202, 76)]
     assert legend == [*levels, "predicted", "nominal circle", "start"]
-    assert {"+X", "+Y", "−X", "−Y", "+10", "−10"} <= set(notes)
+    assert {"+X", "+Y", "−X", "−Y", "0 µm", "+10", "+20"} <= set(notes)
 
 
 def test_traces_are_drawn_where_they_were_measured(poor) -> None:
@@ -190,3 +191,12 @@ def test_without_matplotlib_it_says_what_to_install(poor, monkeypatch) -> None:
     monkeypatch.setattr(sys, "meta_path", [Absent, *sys.meta_path])
     with pytest.raises(MissingExtraError, match=r"needs matplotlib.*pip install 'elastogeo\[report\]'"):
         html_page(view_of(poor))
+
+
+@pytest.mark.parametrize("topology", ["wCAFYXZSt", "wFYXt", "wCAYFXZt", "wXFZBt"])
+def test_the_chain_of_a_machine_has_every_joint_between_foundation_and_ends(topology: str) -> None:
+    drawn = view_of(Machine("m", parse_topology(topology))).pictures["chain"].draw()
+    said = [text.get_text() for text in drawn.axes[0].texts]
+    assert {"foundation", "workpiece", "tool"} <= set(said)
+    axes = [letter for letter in topology if letter.isupper() and letter != "F"]
+    assert sorted(letter for letter in said if len(letter) == 1 and letter.isupper()) == sorted(axes)

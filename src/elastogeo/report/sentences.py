@@ -40,8 +40,6 @@ def sentence_of(check: Check) -> str:
     KeyError
         If no wing says anything of checks of this name.
     """
-    if "said" in check.facts:
-        return str(check.facts["said"])
     return _sentences()[check.name.rpartition(": ")[2]](check.facts, check.passed)
 
 

@@ -7,11 +7,12 @@ from typing import Annotated
 import typer
 
 import elastogeo as eg
-from elastogeo.cli.options import AsJson
+from elastogeo.cli.options import AsJson, Report
 
 
 def machines(
     name: Annotated[str, typer.Argument(help="A shipped machine or a machine file, to see it in full.")] = "",
+    report: Report = None,
     as_json: AsJson = False,
 ) -> None:
     """List the machines that are there, or show one.
@@ -24,7 +25,7 @@ def machines(
     from elastogeo.report import Table, view_of
 
     if name:
-        screen.show(eg.read_machine(name), None, as_json)
+        screen.show(eg.read_machine(name), report, as_json)
         return
     found = eg.machines()
     if as_json:

@@ -1,4 +1,4 @@
-"""Calibrations of an instrument: force against pressure, deflection of the set-up. Stands on the room's ground, `observe`."""
+"""Calibrations of an instrument: force against pressure, deflection of the set-up. Stands on `observe`."""
 
 from elastogeo.identification.calibrations.force import ForceCalibration, calibrate_force
 from elastogeo.identification.calibrations.setup_deflection import SetupDeflection, calibrate_setup

@@ -73,9 +73,9 @@ def calibrate_force(
 
     Notes
     -----
-    Ordinary least squares (JCGM 100, H.3): the readings scatter independently, the pressure counts as exact. Slope and offset
-    are correlated; the load cell stretches both together. **The scatter is that of the day of the calibration**: what changes
-    until the test (friction, temperature, the gauge's zero) is not in it.
+    Ordinary least squares (JCGM 100, H.3): the readings scatter independently, the pressure counts as exact. Slope and
+    offset are correlated; the load cell stretches both together. **The scatter is that of the day of the calibration**:
+    what changes until the test (friction, temperature, the gauge's zero) is not in it.
 
     Raises
     ------

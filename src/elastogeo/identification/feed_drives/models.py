@@ -170,7 +170,7 @@ def supported(models: Sequence[ModelScore]) -> str:
 
 
 def averaging_explains(model: ModelScore, models: Sequence[ModelScore]) -> ModelScore | None:
-    """The same model with an average in place of its delay, unless the delay surely does more for left-out runs; else None."""
+    """The same model with an average in place of its delay; None if the delay surely does more for left-out runs."""
     searched = [found.name for found in model.fit.searched]
     if "delay" not in searched:
         return None

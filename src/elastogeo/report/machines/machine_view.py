@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from math import degrees
+from typing import TYPE_CHECKING
 
 from elastogeo.machine import Machine
 from elastogeo.report.machines.document import machine_json
 from elastogeo.report.numbers import pretty
-from elastogeo.report.view import KeyValue, Section, Table, View, views
+from elastogeo.report.view import KeyValue, Picture, Section, Table, View, views
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @views(Machine)
@@ -29,7 +33,14 @@ def machine_view(machine: Machine) -> View:
         head=(("Topology", machine.topology.compact), ("ISO 10791-6", machine.topology.iso)),
         sentence=f"{len(machine.joints)} joints from the workpiece to the tool: {machine.topology.iso}.",
         values=(KeyValue("axes", " ".join(machine.axes)),),
-        picture=None,
+        picture=Picture(
+            "chain",
+            "Both branches from the foundation up. Square: a linear axis, round: a rotary one; the arrow is its "
+            "direction, beside "
+            "it the offset of its carriage from the one before.",
+            "The kinematic chain of the machine",
+            lambda: _drawn(machine),
+        ),
         checks=(),
         document=document,
         rows=document["axes"],
@@ -47,5 +58,11 @@ def _row(machine: Machine, k: int) -> tuple[str, ...]:
         "tool" if machine.in_tool_branch(joint.name) else "workpiece",
         "rotary" if joint.is_rotary else "linear",
         pretty(", ".join(f"{value:g}" for value in joint.offset)),
-        pretty(f"{low:.4g} to {high:.4g}") + ("°" if joint.is_rotary else " mm"),
+        pretty(f"{low:.6g} to {high:.6g}") + ("°" if joint.is_rotary else " mm"),
     )
+
+
+def _drawn(machine: Machine) -> Figure:
+    from elastogeo.report.machines.chain import chain_figure
+
+    return chain_figure(machine)
