@@ -92,7 +92,8 @@ def compare(
     few = next((result for result in (before, after) if not result.by_run), None)
     if few is not None:
         raise UnsupportedError(
-            f"test {few.test.name!r} has too few runs, or subtracts a reference level: its values have no uncertainty by which "
+            f"test {few.test.name!r} has too few runs, or subtracts a reference level: its values have no "
+            f"uncertainty by which "
             f"a change could be judged; repeat the runs and ask without a reference level"
         )
     machines = before.test.machine, after.test.machine

@@ -86,7 +86,8 @@ def curves_of(observations: Sequence[Observations]) -> Curves:
     levels = force_levels(run.force for run in observations)
     if len(levels.forces) < 2:
         raise UnsupportedError(
-            f"all runs with an engagement are at {levels.forces[0]:.0f} N: compliance and path are not distinguished in any of "
+            f"all runs with an engagement are at {levels.forces[0]:.0f} N: compliance and path are not "
+            f"distinguished in any of "
             f"{len(NODES)} directions; it takes two engagements all around the ball"
         )
     at = [_at_nodes(run) for run in observations]
