@@ -8,7 +8,7 @@ import pytest
 from elastogeo.errors import FormatError, InputError
 from elastogeo.formats import find_machine, read_machine, read_simulation, read_test, shipped_machines
 from elastogeo.formats.text.toml_documents import build, read_document
-from elastogeo.machine import Length
+from elastogeo.machine import Feed, Force, Length
 from elastogeo.observe import Calibration, Circle, LoadedBallBar
 
 CIRCLE = {"radius_mm": 150, "centre": {"X_mm": 1, "A_deg": 90}}
@@ -156,3 +156,19 @@ def test_a_test_without_runs_is_refused(tmp_path):
     )
     with pytest.raises(FormatError, match="names no run; add for each run"):
         read_test(tmp_path)
+
+
+@dataclass(frozen=True, slots=True)
+class Bar:
+    feed: Feed = 1.0
+    force: Force = 1.0
+    name: str = ""
+
+
+@pytest.mark.parametrize(
+    ("key", "meant"),
+    [("fed_mm_min", "feed_mm_min"), ("forse_kN", "force_kN"), ("fed", "feed_mm_s"), ("feeds_N", "feed_mm_s")],
+)
+def test_a_misspelt_key_is_named_with_the_unit_that_was_written(key: str, meant: str) -> None:
+    with pytest.raises(FormatError, match=f"^f: {key} is not known; did you mean {meant}\\?"):
+        build(Bar, {key: 1.0}, "f")

@@ -107,7 +107,7 @@ def test_written_runs_are_read_back(run_format: RunFormat) -> None:
 
 
 OTHERS = [b"[machine]\nname = 'x'\n", b'schema = 1\n[test]\nfiles = ["a"]\n', b"<?xml version='1.0'?><a/>", b'{"a_mm": 1}']
-OTHERS += [b"%\nO1000\nN10 G0 X5 Y7\n", b"Dear reader,\nall is well.\n", b"\x89PNG\r\n\x1a\n\0\0", b"foo,bar\n1,2\n"]
+OTHERS += [b"%\nO1000\nN10 G0 X5 Y7\n", b"Dear reader,\nall is well.\n", b"\x89PNG\r\n\x1a\n\0\0", b"Sirs,\n1.5\n"]
 
 
 @pytest.mark.parametrize("data", OTHERS)

@@ -36,15 +36,17 @@ what to do. What it repairs, it says in the log's notes; it never drops, pads or
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from elastogeo.discovery import import_all
 from elastogeo.errors import FormatError
 from elastogeo.formats.log import Log
 from elastogeo.formats.text.by_content import add, format_of, opened
+from elastogeo.formats.unread import unread
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,15 +115,15 @@ def read_log(path: str | Path) -> Log:
     return read_log_bytes(opened(path, str(path)), str(path))
 
 
-def read_log_bytes(data: bytes, source: str) -> Log:
-    """Read the bytes of a log, as `read_log` does.
+def read_log_bytes(data: bytes, source: str, claimed: Sequence[LogFormat] | None = None) -> Log:
+    """Read the bytes of a log, as `read_log` does; `claimed` are the formats that claim them, if that is known already.
 
     Raises
     ------
     FormatError
         As `read_log`.
     """
-    return format_of(log_formats(), data, source).read(data, source)
+    return format_of(log_formats(), data, source, partial(unread, run=False), claimed).read(data, source)
 
 
 def _of_folder(folder: Path) -> Log:

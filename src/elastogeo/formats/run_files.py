@@ -47,17 +47,18 @@ What the contract asks:
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from elastogeo.discovery import import_all
 from elastogeo.errors import FormatError
-from elastogeo.formats.text.by_content import add, format_of, opened
+from elastogeo.formats.text.by_content import add, claiming, format_of, opened
 from elastogeo.formats.text.table import Table
+from elastogeo.formats.unread import unread
 from elastogeo.machine import Array
 
-_ADVICE = "A text file needs a line of headers with units, such as 'angle_deg,radial_um', above its numbers"
 _CHOICE = re.compile(r"(?P<path>.+)#(?P<number>\d{1,3})", re.ASCII | re.DOTALL)
 
 Writer = Callable[[Mapping[str, Array], Mapping[str, str]], bytes]
@@ -84,6 +85,9 @@ class RunFormat:
         header (`radial_um`). Read back, they are the same bit for bit.
     read_runs : callable, optional
         `read_runs(data, source)`: all runs of a file that may hold several, in its order; at least one.
+    read_columns : callable, optional
+        `read_columns(data, source, columns)`: as `read`, but of the columns that a test names only: our name with its unit
+        (`angle_deg`) -> header in the file.
     """
 
     name: str
@@ -93,6 +97,7 @@ class RunFormat:
     sample: Callable[[], bytes]
     write: Writer | None = None
     read_runs: Callable[[bytes, str], tuple[Table, ...]] | None = None
+    read_columns: Callable[[bytes, str, Mapping[str, str]], Table] | None = None
 
 
 _FORMATS: dict[str, RunFormat] = {}
@@ -128,13 +133,16 @@ def only_run(runs: tuple[Table, ...], source: str) -> Table:
     return runs[0]
 
 
-def read_run(path: str | Path) -> Table:
+def read_run(path: str | Path, columns: Mapping[str, str] | None = None) -> Table:
     """Read one run file of any known format, told from its content.
 
     Parameters
     ----------
     path : str or Path
         The file, of at most `MAX_BYTES` bytes; `name#2` is the second run of the file `name`.
+    columns : mapping of str to str, optional
+        What the columns mean where their headers do not say it: `{"angle_deg": "Winkel", "radial_um": "Abweichung"}`. Only
+        these columns are read.
 
     Returns
     -------
@@ -146,13 +154,31 @@ def read_run(path: str | Path) -> Table:
     FormatError
         If the file cannot be opened, is too large, is of no known format or of more than one, or has bad content.
     """
+    data, number = opened_run(path)
+    return read_run_bytes(data, str(path), number, columns)
+
+
+def opened_run(path: str | Path) -> tuple[bytes, int | None]:
+    """The bytes of a run file, and the number behind its name (`name#2`), if there is one.
+
+    Raises
+    ------
+    FormatError
+        If it cannot be opened.
+    """
     source = str(path)
     choice = None if Path(path).exists() else _CHOICE.fullmatch(source)
     data = opened(choice["path"] if choice else path, source)
-    return read_run_bytes(data, source, int(choice["number"]) if choice else None)
+    return data, int(choice["number"]) if choice else None
 
 
-def read_run_bytes(data: bytes, source: str, number: int | None = None) -> Table:
+def read_run_bytes(
+    data: bytes,
+    source: str,
+    number: int | None = None,
+    columns: Mapping[str, str] | None = None,
+    claimed: Sequence[RunFormat] | None = None,
+) -> Table:
     """Read the bytes of a run file, as `read_run` does (an upload, a member of an archive).
 
     Parameters
@@ -162,13 +188,28 @@ def read_run_bytes(data: bytes, source: str, number: int | None = None) -> Table
         Where they came from, for messages.
     number : int, optional
         Which run of the file, from 1; without it the file must hold one only.
+    columns : mapping of str to str, optional
+        As of `read_run`.
+    claimed : sequence of RunFormat, optional
+        The formats that claim them, if that is known already.
 
     Raises
     ------
     FormatError
         As `read_run`.
     """
-    return _read(format_of(run_formats(), data, source, _ADVICE), data, source, number)
+    if columns:
+        return _columns_reader(data, source)(data, source, columns)
+    return _read(format_of(run_formats(), data, source, partial(unread, run=True), claimed), data, source, number)
+
+
+def _columns_reader(data: bytes, source: str) -> Callable[[bytes, str, Mapping[str, str]], Table]:
+    """What reads named columns of a file: of Parquet, else of delimited text, whose headers may say anything."""
+    formats = run_formats()
+    claimed = claiming(formats, data) or [formats["delimited text"]]
+    if claimed[0].read_columns is None:
+        raise FormatError(f"{source}: is {claimed[0].name}, whose columns have no headers to choose by; leave columns out")
+    return claimed[0].read_columns
 
 
 def _read(run_format: RunFormat, data: bytes, source: str, number: int | None) -> Table:

@@ -16,9 +16,9 @@ from elastogeo.formats.channels import on_one_clock
 from elastogeo.formats.documents.calibrations import with_calibration
 from elastogeo.formats.documents.drive_logs import is_recording
 from elastogeo.formats.documents.machines import find_machine
-from elastogeo.formats.log_files import log_formats, read_log
-from elastogeo.formats.run_files import read_run, run_formats
-from elastogeo.formats.text.by_content import HEAD
+from elastogeo.formats.log_files import log_formats, read_log, read_log_bytes
+from elastogeo.formats.run_files import opened_run, read_run_bytes, run_formats
+from elastogeo.formats.text.by_content import claiming
 from elastogeo.formats.text.fingerprint import sha256_of
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
@@ -59,6 +59,7 @@ class RunDocument:
 class TestDocument:
     """What a test file says; its table `setup` is the instrument's.
 
+    `columns` say what the columns of its run files mean where their headers do not: our name with its unit -> header.
     With `channels`, `clock`, or a `start` or `end` of a run, the files of its runs are logs of a controller: see `channels`.
     """
 
@@ -72,6 +73,7 @@ class TestDocument:
     influences: tuple[KnownInfluence, ...] = ()
     resolution: Length | None = None
     simulated: str = ""
+    columns: Mapping[str, str] = field(default_factory=dict)
     channels: tuple[ChannelUse, ...] = ()
     clock: Clock = field(default_factory=Clock)
     about: About = field(default_factory=About)
@@ -178,27 +180,23 @@ def _table(document: TestDocument, entry: RunDocument, folder: Path, read: ReadR
     if read is not None:
         return read(path)
     asked = bool(document.channels) or document.clock != Clock() or entry.start is not None or entry.end is not None
-    if not asked and not path.is_dir() and not _is_only_log(path):
-        return read_run(path)
-    found = on_one_clock(read_log(path), document.channels, document.clock, entry.start, entry.end)
+    if asked and document.columns:
+        raise FormatError(f"{path}: columns are those of runs, channels those of logs; say one of them in the test file")
+    log = read_log(path) if path.is_dir() or asked else None
+    if log is None:
+        data, number = opened_run(path)
+        runs = claiming(run_formats(), data)
+        logs = [] if runs or document.columns else claiming(log_formats(), data)
+        if not logs:
+            return read_run_bytes(data, str(path), number, document.columns, runs)
+        log = read_log_bytes(data, str(path), logs)
+    found = on_one_clock(log, document.channels, document.clock, entry.start, entry.end)
     if found.percent:
         name, kind = found.percent[0], found.percent[0].partition("_")[0]
         raise FormatError(
             f"{path}: {name} is in % of a rated value; say it under [[channels]], as rated_{kind}, with its unit"
         )
     return found.table
-
-
-def _is_only_log(path: Path) -> bool:
-    """Whether a file is of a format of logs, and of no format of runs."""
-    try:
-        with open(path, "rb") as file:
-            head = file.read(HEAD)
-    except (OSError, ValueError):
-        return False
-    if any(known.can_read(head) for known in run_formats().values()):
-        return False
-    return any(known.can_read(head) for known in log_formats().values())
 
 
 def _check(runs: tuple[Run, ...], file: Path) -> None:

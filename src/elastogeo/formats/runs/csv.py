@@ -11,7 +11,7 @@ by side are two runs, the CW one from the end angle to the start angle.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,10 +20,10 @@ from elastogeo.errors import FormatError
 from elastogeo.formats.run_files import RunFormat, only_run, register
 from elastogeo.formats.runs.arc_angles import check_sides, runs_of
 from elastogeo.formats.text.delimited import NUMBER, guarded, utf8_text
-from elastogeo.formats.text.heading import read_heading
+from elastogeo.formats.text.heading import Heading, read_heading
 from elastogeo.formats.text.readings import Readings
-from elastogeo.formats.text.table import Table, parse_headers
-from elastogeo.formats.text.units import QUANTITIES, split_unit
+from elastogeo.formats.text.table import Column, Table, named_columns, parse_headers
+from elastogeo.formats.text.units import QUANTITIES, UNITS, split_unit
 
 _WRITABLE = re.compile(r"[^\W\d][\w ./°-]*([\[(][\w ./°-]*[\])])?")
 
@@ -41,7 +41,7 @@ def can_read(head: bytes) -> bool:
     numeric = bool(heading.cells) and all(map(NUMBER.fullmatch, heading.cells))
     if not heading.headers:
         return numeric
-    return any(_has_unit(header) or (numeric and header.strip().lower() in QUANTITIES) for header in heading.headers)
+    return any(_has_unit(header) or (numeric and header.strip().lower() in QUANTITIES) for header in _with_units(heading))
 
 
 def read_csv(data: bytes, source: str) -> Table:
@@ -69,6 +69,27 @@ def read_csv_runs(data: bytes, source: str) -> tuple[Table, ...]:
     FormatError
         If anything in the file is not understood without doubt. Bad lines are counted and the first five shown.
     """
+    text, heading = _opened(data, source)
+    columns = parse_headers(_with_units(heading), f"{source}, line {heading.line}")
+    check_sides(columns, f"{source}, line {heading.line}")
+    return runs_of(_table(text, heading, columns, source))
+
+
+def read_csv_columns(data: bytes, source: str, columns: Mapping[str, str]) -> Table:
+    """Read the columns that a test names (our name with its unit -> header); what stands in the others does not matter.
+
+    Raises
+    ------
+    FormatError
+        As `read_csv_runs`, and if a column is not there.
+    """
+    text, heading = _opened(data, source)
+    named = named_columns(heading.headers, columns, f"{source}, line {heading.line}")
+    return only_run(runs_of(_table(text, heading, named, source)), source)
+
+
+def _opened(data: bytes, source: str) -> tuple[bytes, Heading]:
+    """The text and its heading."""
     try:
         text = utf8_text(data)
         heading = read_heading(text)
@@ -79,11 +100,13 @@ def read_csv_runs(data: bytes, source: str) -> tuple[Table, ...]:
     where = f"{source}, line {heading.line}"
     if not heading.headers:
         raise FormatError(f"{where}: numbers begin without a column header; write one above: 'angle_deg,radial_um'")
-    columns = parse_headers(heading.headers, where)
-    check_sides(columns, where)
+    return text, heading
+
+
+def _table(text: bytes, heading: Heading, columns: Sequence[Column | None], source: str) -> Table:
     readings = Readings(text, heading, columns)
     readings.read()
-    return runs_of(readings.table(source, ended=text.endswith(b"\n")))
+    return readings.table(source, ended=text.endswith(b"\n"))
 
 
 def write_csv(columns: Mapping[str, ArrayLike], metadata: Mapping[str, str]) -> bytes:
@@ -119,6 +142,15 @@ def write_csv(columns: Mapping[str, ArrayLike], metadata: Mapping[str, str]) -> 
     return "\n".join([*comments, header, *map(",".join, rows), ""]).encode()
 
 
+def _with_units(heading: Heading) -> list[str]:
+    """The headers, each with the unit that stands under it, if it says none itself."""
+    units = heading.units or ("",) * len(heading.headers)
+    return [
+        f"{header} [{unit}]" if unit in UNITS and not _has_unit(header) else header
+        for header, unit in zip(heading.headers, units, strict=True)
+    ]
+
+
 def _has_unit(header: str) -> bool:
     try:
         return split_unit(header)[1] != ""
@@ -138,4 +170,4 @@ def _sample() -> bytes:
     )
 
 
-register(RunFormat("delimited text", ".csv", can_read, read_csv, _sample, write_csv, read_csv_runs))
+register(RunFormat("delimited text", ".csv", can_read, read_csv, _sample, write_csv, read_csv_runs, read_csv_columns))

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from elastogeo.errors import FormatError
 from elastogeo.formats.run_files import RunFormat, register
 from elastogeo.formats.text.parquet_bytes import can_read, opened_parquet, pyarrow_modules, unpacked
-from elastogeo.formats.text.table import SHOWN, Column, Table, parse_headers, problems_error
+from elastogeo.formats.text.table import SHOWN, Column, Table, named_columns, parse_headers, problems_error
 from elastogeo.machine import Array
 
 
@@ -36,11 +36,30 @@ def read_parquet(data: bytes, source: str) -> Table:
         If the file is cut off or damaged, a column is not of numbers or has no unit, a reading is missing or not
         finite, or the file unpacks to far more than its size.
     """
+    return _read(data, source, None)
+
+
+def read_parquet_columns(data: bytes, source: str, columns: Mapping[str, str]) -> Table:
+    """Read the columns that a test names (our name with its unit -> column of the file) as `read_parquet` does.
+
+    Raises
+    ------
+    FormatError
+        As `read_parquet`, and if a column is not there.
+    """
+    return _read(data, source, columns)
+
+
+def _read(data: bytes, source: str, wanted: Mapping[str, str] | None) -> Table:
     file, schema = opened_parquet(data, source)
     metadata = {_text(key): _text(value) for key, value in (schema.metadata or {}).items()}
-    columns = parse_headers(list(schema.names), source)
-    _check_types(columns, list(schema.types), source)
+    names = list(schema.names)
+    named = parse_headers(names, source) if wanted is None else named_columns(names, wanted, source)
     content = unpacked(file, len(data), source, "readings")
+    places = [place for place, column in enumerate(named) if column is not None]
+    columns = [column for column in named if column is not None]
+    _check_types(columns, [schema.types[place] for place in places], source)
+    content = content.select(places)
     if not content.num_rows:
         raise FormatError(f"{source}: the Parquet file has no row of readings; export the run again")
     problems: list[str] = []
@@ -113,4 +132,4 @@ def _sample() -> bytes:
     )
 
 
-register(RunFormat("Parquet", ".parquet", can_read, read_parquet, _sample, write_parquet))
+register(RunFormat("Parquet", ".parquet", can_read, read_parquet, _sample, write_parquet, read_columns=read_parquet_columns))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol, TypeVar
 
@@ -62,7 +62,18 @@ def opened(path: str | Path, source: str) -> bytes:
         raise FormatError(f"{source}: cannot be opened ({reason}); check the path and its permissions") from None
 
 
-def format_of(formats: Mapping[str, F], data: bytes, source: str, advice: str = "") -> F:
+def claiming(formats: Mapping[str, F], data: bytes) -> list[F]:
+    """The formats that claim the bytes of a file."""
+    return [one for one in formats.values() if one.can_read(data[:HEAD])]
+
+
+def format_of(
+    formats: Mapping[str, F],
+    data: bytes,
+    source: str,
+    explain: Callable[[bytes], str],
+    claimed: Sequence[F] | None = None,
+) -> F:
     """The one format that claims these bytes.
 
     Parameters
@@ -72,8 +83,10 @@ def format_of(formats: Mapping[str, F], data: bytes, source: str, advice: str = 
         The whole file.
     source : str
         Where they came from, for messages.
-    advice : str
-        What to do about a file that none of them reads.
+    explain : callable
+        What a file is that none of them reads, and what to do; empty if that cannot be told.
+    claimed : sequence of format, optional
+        What `claiming` gave, if it was asked already.
 
     Raises
     ------
@@ -84,13 +97,12 @@ def format_of(formats: Mapping[str, F], data: bytes, source: str, advice: str = 
         raise FormatError(f"{source}: is larger than {MAX_BYTES // 1_000_000} MB; split it into several files")
     if not data:
         raise FormatError(f"{source}: the file is empty; copy or export it again")
-    found = [one for one in formats.values() if one.can_read(data[:HEAD])]
+    found = claiming(formats, data) if claimed is None else claimed
     if len(found) == 1:
         return found[0]
     known = ", ".join(f"{one.name} ({one.suffix})" for one in formats.values())
     if found:
         claims = " and ".join(one.name for one in found)
         raise FormatError(f"{source}: could be {claims}, so it is not read; export it in one of the formats {known}")
-    raise FormatError(
-        f"{source}: begins with {data[:20]!r}, which no known format does; known are {known}. {advice}".rstrip(". ")
-    )
+    why = explain(data)
+    raise FormatError(f"{source}: {why or f'begins with {data[:20]!r}, which no known format does; known are {known}'}")

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
 
 import numpy as np
 
@@ -122,6 +123,33 @@ def parse_headers(headers: Sequence[str], where: str) -> list[Column]:
     if problems:
         raise problems_error(where, problems[:SHOWN], len(problems), "column headers will not do")
     return list(columns.values())
+
+
+def named_columns(headers: Sequence[str], columns: Mapping[str, str], where: str) -> list[Column | None]:
+    """What each header of a file means, as a test says it; None for a column that it does not name.
+
+    Parameters
+    ----------
+    headers : sequence of str
+        Of the file.
+    columns : mapping of str to str
+        Our name with its unit (`angle_deg`) -> header in the file.
+    where : str
+        The file, and the line if there is one, for the message.
+
+    Raises
+    ------
+    FormatError
+        If one of them is not in the file, or not a quantity with its unit.
+    """
+    parsed = dict(zip(columns, parse_headers(list(columns), f"{where}, columns of the test"), strict=True))
+    for name, header in columns.items():
+        if header not in headers:
+            near = get_close_matches(header, headers, n=1)
+            hint = f"did you mean {near[0]!r}?" if near else f"it has {', '.join(headers[:20])}"
+            raise FormatError(f"{where}: has no column {header!r}, which the test takes as {name}; {hint}")
+    meant = {header: replace(parsed[name], header=header) for name, header in columns.items()}
+    return [meant.get(header) for header in headers]
 
 
 def problems_error(where: str, shown: Sequence[str], count: int, what: str) -> FormatError:

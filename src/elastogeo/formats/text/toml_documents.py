@@ -132,9 +132,8 @@ def _internal(kind: Any, table: Any, path: str, problems: list[str]) -> dict[str
         name, unit = _field_of(key, units)
         at = f"{path}{key}"
         if name is None:
-            known = [_spelled(field, units[field]) for field in units]
-            near = get_close_matches(key, known, n=1)
-            problems.append(f"{at} is not known; " + (f"did you mean {near[0]}?" if near else f"known: {', '.join(known)}"))
+            near, known = _nearest(key, units), [_spelled(field, units[field]) for field in units]
+            problems.append(f"{at} is not known; " + (f"did you mean {near}?" if near else f"known: {', '.join(known)}"))
             continue
         if name in values:
             problems.append(f"{at} gives {path}{name} a second time; give it once")
@@ -163,6 +162,18 @@ def _field_of(key: str, units: Mapping[str, str]) -> tuple[str | None, str]:
         if key.startswith(f"{name}_"):
             return name, key[len(name) + 1 :]
     return None, ""
+
+
+def _nearest(key: str, units: Mapping[str, str]) -> str:
+    """The key that was probably meant, with the unit that was written if it fits; empty if none is near."""
+    cuts = [(key[:at], key[at + 1 :]) for at in range(len(key)) if key[at] == "_" and _dimensions(key[at + 1 :])]
+    for name, unit in [*cuts, (key, "")]:
+        near = get_close_matches(name, [field for field in units if units[field] or not unit], n=1)
+        if near:
+            fits = unit and _same_dimension(unit, units[near[0]])
+            return f"{near[0]}_{unit}" if fits else _spelled(near[0], units[near[0]])
+    near = get_close_matches(key, [_spelled(field, units[field]) for field in units], n=1)
+    return near[0] if near else ""
 
 
 def _converted(value: Any, unit: str, inside: str, at: str, name: str, problems: list[str]) -> Any:
