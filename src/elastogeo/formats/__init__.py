@@ -10,6 +10,7 @@ from elastogeo.formats.documents.calibrations import (
     DeflectionDocument,
     calibration_text,
     read_calibration,
+    write_calibration,
 )
 from elastogeo.formats.documents.feed_drives import read_drives
 from elastogeo.formats.documents.machine_tests import example_test, full_turn, read_test, run_files_of
@@ -90,6 +91,7 @@ __all__ = [
     "shipped_machines",
     "simulate",
     "standing_gaps",
+    "write_calibration",
     "write_runs",
     "write_whole",
 ]

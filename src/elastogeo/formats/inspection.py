@@ -18,6 +18,7 @@ from elastogeo.formats.text.by_content import HEAD, opened
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import read_document
 from elastogeo.formats.text.units import QUANTITIES, UNITS, check_unit, dimensions_of, split_unit
+from elastogeo.result import Result
 
 SHOWN = 5
 
@@ -61,8 +62,8 @@ class InspectedColumn:
     rate: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class Inspected:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Inspected(Result):
     """What a file is.
 
     Attributes

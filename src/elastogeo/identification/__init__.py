@@ -1,7 +1,14 @@
 """From a test to a design matrix to parameters, with a verdict. Stands on all rooms below; knows no file, no figure."""
 
 from elastogeo.identification.budget import SCATTER, Agreement, Budget, BudgetLine, agreement, uncertainty_budget
-from elastogeo.identification.calibrations import ForceCalibration, SetupDeflection, calibrate_force, calibrate_setup
+from elastogeo.identification.calibrations import (
+    BarCalibration,
+    ForceCalibration,
+    SetupDeflection,
+    calibrate,
+    calibrate_force,
+    calibrate_setup,
+)
 from elastogeo.identification.change import SIGNIFICANT, Change, difference, local_change, run_dispersion
 from elastogeo.identification.check import Check
 from elastogeo.identification.explanation import Explanation, explain
@@ -61,6 +68,7 @@ __all__ = [
     "SIGNIFICANT",
     "Agreement",
     "AxisDrive",
+    "BarCalibration",
     "BeforeAfter",
     "Branch",
     "Budget",
@@ -113,6 +121,7 @@ __all__ = [
     "adjacent",
     "agreement",
     "branches_of",
+    "calibrate",
     "calibrate_force",
     "calibrate_setup",
     "cartesian_compliance",

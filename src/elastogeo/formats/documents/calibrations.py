@@ -9,7 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from elastogeo.errors import FormatError
+from elastogeo.estimate import Estimate
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
+from elastogeo.formats.text.whole_files import write_whole
 from elastogeo.machine import LengthPerPressure
 from elastogeo.observe import About, Calibration
 
@@ -117,6 +119,33 @@ def calibration_text(document: CalibrationDocument) -> str:
         lines += _unless(post.degrees_of_freedom, "degrees_of_freedom", inf)
     about = [f"{key} = {_text(value)}" for key in About.__slots__ if (value := getattr(document.about, key))]
     return "\n".join([*lines, *(["", "[about]", *about] if about else []), ""])
+
+
+def write_calibration(path: str | Path, force: Calibration | None, setup: Estimate | None = None, name: str = "") -> Path:
+    """Write a calibration file that test files can name.
+
+    Parameters
+    ----------
+    path : str or Path
+        It must not exist.
+    force : Calibration or None
+    setup : Estimate or None [mm/bar]
+        Deflection of the set-up per pressure.
+    name : str
+
+    Raises
+    ------
+    FormatError
+        If the file is there already, or cannot be written.
+    """
+    path = Path(path)
+    if path.exists():
+        raise FormatError(f"{path} is there already; choose another name, nothing was changed")
+    post = None
+    if setup is not None:
+        post = DeflectionDocument(setup.value, setup.standard_uncertainty, setup.degrees_of_freedom)
+    text = calibration_text(CalibrationDocument(name=name, force=force, setup_deflection=post))
+    return write_whole({path: text.encode()})[0]
 
 
 def _unless(value: float, key: str, default: float) -> list[str]:
