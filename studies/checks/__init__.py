@@ -1,4 +1,7 @@
-"""The studies, one file a check: each defines `STUDY` and is found by being here. `identifiable.py` shows how."""
+"""The studies, one file a check: each defines `STUDY` and is found by being here or in a wing.
+
+`identifiable.py` shows how.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,7 @@ from studies.rates import Study
 
 
 def studies() -> dict[str, Study]:
-    """Every study by its file's name, in its order on the page."""
-    found = {name: import_module(f"{__name__}.{name}").STUDY for _, name, _ in pkgutil.iter_modules(__path__)}
+    """Every study by the name of its file, with that of its wing before it, in its order on the page."""
+    files = [file.name for file in pkgutil.walk_packages(__path__, f"{__name__}.") if not file.ispkg]
+    found = {name.removeprefix(f"{__name__}."): import_module(name).STUDY for name in files}
     return dict(sorted(found.items(), key=lambda item: (item[1].order, item[0])))

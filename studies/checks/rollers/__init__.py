@@ -1,0 +1,1 @@
+"""Checks of a ball-roller test."""
