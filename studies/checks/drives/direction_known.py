@@ -17,7 +17,7 @@ STUDY = Study(
             Identified(Sines(), least_speed=0.0),
             Named(CHECK),
             most=0.05,
-            short=8,
+            short=4,
         ),
         Cell(
             "3 mm/s of noise of the velocity",
@@ -26,7 +26,7 @@ STUDY = Study(
             Identified(Sines(trembling=3.0), least_speed=0.0),
             Named(CHECK),
             least=0.95,
-            short=8,
+            short=4,
         ),
     ),
     order=2,

@@ -17,7 +17,7 @@ STUDY = Study(
             Identified(Sines(), held_out=("run 4",)),
             Named(CHECK),
             most=0.05,
-            short=8,
+            short=4,
         ),
         Cell(
             "friction of the held-out run 30 % greater",
@@ -26,7 +26,7 @@ STUDY = Study(
             Identified(Sines(heavier=1.3), held_out=("run 4",)),
             Named(CHECK),
             least=0.95,
-            short=8,
+            short=4,
         ),
     ),
     order=2,

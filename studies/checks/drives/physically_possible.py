@@ -10,7 +10,7 @@ STUDY = Study(
     CHECK,
     "A current of the wrong sign.",
     (
-        Cell("plain friction", "sines", "white", Identified(Sines()), Named(CHECK), most=0.05, short=8),
+        Cell("plain friction", "sines", "white", Identified(Sines()), Named(CHECK), most=0.05, short=4),
         Cell(
             "the current has the wrong sign",
             "sines",
@@ -18,7 +18,7 @@ STUDY = Study(
             Identified(Sines(reversed_effort=True)),
             Named(CHECK),
             least=0.95,
-            short=8,
+            short=4,
         ),
     ),
     order=2,

@@ -10,8 +10,8 @@ STUDY = Study(
     CHECK,
     "Five runs do; one is cut into pieces, which hold less.",
     (
-        Cell("5 runs", "sines", "white", Identified(Sines()), Named(CHECK), most=0.05, short=8),
-        Cell("1 run", "sines", "white", Identified(Sines(1)), Named(CHECK), least=0.95, short=8),
+        Cell("5 runs", "sines", "white", Identified(Sines()), Named(CHECK), most=0.05, short=4),
+        Cell("1 run", "sines", "white", Identified(Sines(1)), Named(CHECK), least=0.95, short=4),
     ),
     order=2,
 )

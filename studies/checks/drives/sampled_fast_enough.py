@@ -10,7 +10,7 @@ STUDY = Study(
     CHECK,
     "The fastest of the sines has 3 Hz: 200 samples a second show its acceleration, 10 do not.",
     (
-        Cell("200 samples a second", "sines", "white", Identified(Sines()), Named(CHECK), most=0.05, short=8),
+        Cell("200 samples a second", "sines", "white", Identified(Sines()), Named(CHECK), most=0.05, short=4),
         Cell(
             "10 samples a second",
             "sines",
@@ -18,7 +18,7 @@ STUDY = Study(
             Identified(Sines(step=0.1), least_speed=0.0),
             Named(CHECK),
             least=0.95,
-            short=8,
+            short=4,
         ),
     ),
     order=2,

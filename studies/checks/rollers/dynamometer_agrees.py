@@ -10,7 +10,7 @@ STUDY = Study(
     "A dynamometer with 3 N of noise; the fault is a force that is 10 % too great.",
     (
         Cell("the same force", "5 engagements", "white", Mapped(dynamometer=1.0), Named(CHECK), most=0.05),
-        Cell("10 % too great", "5 engagements", "white", Mapped(dynamometer=1.1), Named(CHECK), least=0.95, short=2),
+        Cell("10 % too great", "5 engagements", "white", Mapped(dynamometer=1.1), Named(CHECK), least=0.95, short=1),
     ),
     order=2,
 )

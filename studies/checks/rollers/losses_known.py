@@ -22,7 +22,7 @@ STUDY = Study(
             )
             for back in (2 - 1 / 0.9, 0.9, 0.85)
         ),
-        Cell("not stated", "5 engagements", "white", Mapped(), Named(CHECK), ("not tested",), least=1.0, short=2),
+        Cell("not stated", "5 engagements", "white", Mapped(), Named(CHECK), ("not tested",), least=1.0, short=1),
         Cell(
             "stated",
             "5 engagements",
@@ -31,7 +31,7 @@ STUDY = Study(
             Named(CHECK),
             ("not tested",),
             most=0.0,
-            short=2,
+            short=1,
         ),
     ),
     order=2,

@@ -10,8 +10,8 @@ STUDY = Study(
     "Five engagements, four runs each. A fall of 20 % and a contact of 30 % up to the greatest engagement, and the machine "
     "of Table 6.6, which no law describes. *found* or *alike* (named together) count as found.",
     (
-        Cell("one spring", "5 engagements", "white", Mapped(), Named(CHECK), most=0.05, short=3),
-        Cell("falls by 20 %", "5 engagements", "white", Mapped("falls"), Named(CHECK), least=0.95, short=3),
+        Cell("one spring", "5 engagements", "white", Mapped(), Named(CHECK), most=0.05, short=2),
+        Cell("falls by 20 %", "5 engagements", "white", Mapped("falls"), Named(CHECK), least=0.95, short=2),
         Cell(
             "falls by 20 %: law", "5 engagements", "white", Mapped("falls"), Laws("linear"), ("found", "alike"), least=0.95
         ),

@@ -9,8 +9,8 @@ STUDY = Study(
     CHECK,
     "A radius that is off by 18 um is 60 % of the deflection at the least engagement.",
     (
-        Cell("no offset", "5 engagements", "white", Mapped(), Named(CHECK), most=0.05, short=3),
-        Cell("18 um", "5 engagements", "white", Mapped(path=0.018), Named(CHECK), least=0.95, short=3),
+        Cell("no offset", "5 engagements", "white", Mapped(), Named(CHECK), most=0.05, short=2),
+        Cell("18 um", "5 engagements", "white", Mapped(path=0.018), Named(CHECK), least=0.95, short=1),
         Cell("Table 6.6", "5 engagements", "white", Mapped("table 6.6"), Named(CHECK), least=0.95),
     ),
     order=2,
