@@ -125,6 +125,14 @@ def test_a_rest_that_only_the_sign_of_a_recorded_velocity_shows() -> None:
     assert identify_balance([record]).determined["coulomb"] == pytest.approx(COULOMB, rel=0.01)
 
 
+def test_a_motion_that_is_sampled_too_slowly_is_no_rest() -> None:
+    """3 Hz at five samples a second: the sign changes from sample to sample, and the axis does not stand."""
+    time = 0.2 * np.arange(400)
+    v = 50 * np.cos(2 * np.pi * 3 * time)
+    record = DriveRecord("r", "X", time, np.sin(time), v, v, np.sign(v))
+    assert not standstill(record).near.any()
+
+
 def test_a_stated_least_speed_is_kept_as_stated() -> None:
     record = dwelling(1)
     fit = identify_balance([record], TorqueModel(least_speed=1.0))

@@ -25,6 +25,10 @@ TURNS = 3
 """Changes of sign within two windows of a low-pass, or one where there is none: no motion in the band of the record turns
 back so often."""
 
+SLOW = 0.1
+"""Share of the speed of a record (its 95 % quantile) up to which a recorded velocity may be at rest; a motion that is
+sampled too slowly changes its sign as noise does."""
+
 LASTING = 2.0
 """Windows that a rest lasts at least."""
 
@@ -64,7 +68,8 @@ def standing(time: Array, path: Array, velocity: Array, window: int, turning: in
     window : int
         Samples.
     turning : int, optional
-        Samples on either side within which the changes of sign count; default the window.
+        Of a recorded velocity: samples on either side within which its changes of sign count. Default the window, for one
+        that went through a low-pass.
     """
     if len(time) < 2 * window + 4:
         return np.zeros(len(time), dtype=bool)
@@ -72,7 +77,12 @@ def standing(time: Array, path: Array, velocity: Array, window: int, turning: in
 
     span = maximum_filter1d(path, window) - minimum_filter1d(path, window)
     still = span <= _rest_span(path)
-    trembles = _widened(_trembles(velocity, turning or window), window // 2)
+    trembles = _trembles(velocity, turning or window)
+    if turning:
+        speed = np.abs(velocity)
+        slow = maximum_filter1d(speed, 2 * turning + 1) <= SLOW * np.quantile(speed, 0.95)
+        still, trembles = still & slow, trembles & slow
+    trembles = _widened(trembles, window // 2)
     trembles = ~_widened(~trembles, window // 2)  # without the gaps that chance leaves between changes of sign
     return _lasting(_widened(still, window // 2) | trembles, int(LASTING * window))
 

@@ -46,7 +46,7 @@ def drive_verdict(found: AxisDrive, records: Sequence[DriveRecord]) -> tuple[Che
         _repeated(found.fit.counted, sum(count > 0 for count in found.fit.samples.values())),
     ]
     if found.rest is not None:
-        checks.append(_standstill(found.rest, records))
+        checks.append(_standstill(found.rest, found.fit.model.least_speed, records))
     if found.held_out:
         checks.append(_predicted(found))
     checks += [*_adequate(found), *_shift(found)]
@@ -99,12 +99,13 @@ def _repeated(counted: str, runs: int) -> Check:
     return Check("runs repeated", counted == "runs", {"counted": counted, "runs": runs})
 
 
-def _standstill(rest: Rest, records: Sequence[DriveRecord]) -> Check:
+def _standstill(rest: Rest, stated: float | None, records: Sequence[DriveRecord]) -> Check:
     """Passed as well where no record shows a rest."""
     facts = {
         "share": rest.share,
         "used": rest.used,
         "speed": rest.speed,
+        "stated_speed": stated,
         "left_out": rest.left_out,
         "kept": rest.kept,
         "worse": rest.worse,

@@ -54,9 +54,12 @@ def standstill_left_out(facts: Facts, passed: bool | None) -> str:
             f"{facts['kept']:.3g} {unit} with them."
         )
     if passed:
+        stated = facts["stated_speed"]
+        slower = f"{facts['speed']:.2g}" if stated is None else f"{stated:g}"
+        why = "the noise at rest" if stated is None else "the least speed stated"
         return (
-            f"{share} of the samples are at standstill and were left out, and so are motions slower than "
-            f"{facts['speed']:.2g} {facts['length_unit']}/s, the noise at rest.{judged}"
+            f"{share} of the samples are at standstill and were left out, and so are motions slower than {slower} "
+            f"{facts['length_unit']}/s, {why}.{judged}"
         )
     if facts["worse"]:
         return f"{share} of the samples look like standstill, but predict the others.{judged} State least_speed yourself."
