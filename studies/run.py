@@ -45,11 +45,24 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def run(chosen: dict[str, Study], trials: int, faults: int, workers: int) -> None:
-    """Count the chosen studies and keep their counts."""
-    every = [cell for study in chosen.values() for cell in study.cells]
-    found = rates(every, lambda cell: max(1, round(cell.share * (faults if cell.least else trials))), workers)
+    """Count the chosen studies, group by group, and keep the counts of each as it is done."""
+    for names in groups(chosen):
+        every = [cell for name in names for cell in chosen[name].cells]
+        found = rates(every, lambda cell: max(1, round(cell.share * (faults if cell.least else trials))), workers)
+        for name in names:
+            write_counts(name, {cell.key: dict(found[cell].words) for cell in chosen[name].cells})
+        print(f"counted: {', '.join(names)}", flush=True)
+
+
+def groups(chosen: dict[str, Study]) -> list[list[str]]:
+    """Studies that share samples stand together, the groups with the fewest cells first."""
+    found: list[tuple[set[object], list[str]]] = []
     for name, study in chosen.items():
-        write_counts(name, {cell.key: dict(found[cell].words) for cell in study.cells})
+        samples: set[object] = {cell.sample for cell in study.cells}
+        kin = [group for group in found if group[0] & samples]
+        found = [group for group in found if group not in kin]
+        found.append((samples.union(*(s for s, _ in kin)), [*(n for _, names in kin for n in names), name]))
+    return [names for _, names in sorted(found, key=lambda group: len(group[0]))]
 
 
 def rates_of(study: Study, counts: Counts) -> dict[Cell, Rate]:

@@ -13,7 +13,7 @@ from elastogeo.errors import UnsupportedError
 from studies import run
 from studies.checks import studies
 from studies.page import page, shown
-from studies.rates import ALARM, Cell, Rate, Sample, rates, wilson
+from studies.rates import ALARM, Cell, Rate, Sample, Study, rates, wilson
 
 
 @dataclass(frozen=True)
@@ -60,6 +60,16 @@ def test_processes_do_not_change_a_count_and_samples_are_shared() -> None:
     assert alone == rates([one, other], lambda c: 90 if c.least else 45, workers=2)
     assert alone[one].trials == 45
     assert alone[other].trials == 90
+
+
+def test_studies_that_share_a_sample_are_counted_together() -> None:
+    one, two, three = Coin(0.1), Coin(0.2), Coin(0.3)
+    chosen = {
+        "a": Study("a", "", (cell(one), cell(two))),
+        "b": Study("b", "", (cell(three),)),
+        "c": Study("c", "", (cell(two, most=0.1),)),
+    }
+    assert run.groups(chosen) == [["b"], ["a", "c"]]
 
 
 def test_a_rate_is_bold_where_its_interval_does_not_reach() -> None:
