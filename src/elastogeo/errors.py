@@ -5,6 +5,18 @@ Every error says what arrived, where, why it will not do, and what to do about i
 the question: exit code 1).
 """
 
+from collections.abc import Sequence
+
+NAMED = 8
+"""Names that a message lists before it counts the others."""
+
+
+def several(names: Sequence[str]) -> str:
+    """Names for a message: all of a few, the first of many with the count of the others."""
+    if len(names) <= NAMED + 1:
+        return ", ".join(names)
+    return f"{', '.join(names[:NAMED])} and {len(names) - NAMED} more"
+
 
 class ElastogeoError(Exception):
     """Root of all errors that elastogeo raises on purpose."""

@@ -45,6 +45,7 @@ def test_a_new_test_simulated_gives_a_supported_result(kind: str, tmp_path: Path
     found = {p.name: p for p in result.parameters}
     shown = [name for name in truth if name in found]
     assert shown
+    assert all(parameter.interval is not None for parameter in result.parameters)
     for name in shown:
         low, high = found[name].interval
         stated = sum(c * truth.get(other, 0.0) for other, c in found[name].stands_for.items())

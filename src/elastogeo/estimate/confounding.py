@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from elastogeo.equality import ByValue
-from elastogeo.errors import InputError, RankError
+from elastogeo.errors import InputError, RankError, several
 from elastogeo.estimate.factor import Array, Factor
 
 RANK_TOLERANCE = 1e-8
@@ -107,7 +107,7 @@ def confounding(
     norms = factor.column_norms
     alive = norms > (0.0 if ceilings is None else NULL_TOLERANCE * ceilings)
     if not alive.any():
-        raise RankError(f"none of the parameters {', '.join(factor.labels)} changes any reading of this test")
+        raise RankError(f"none of the parameters {several(factor.labels)} changes any reading of this test")
     scaled = factor.R[:, alive] / norms[alive]
     names = [label for label, is_alive in zip(factor.labels, alive, strict=True) if is_alive]
     kept = _retained(scaled, _order(factor.labels, names, preference), tolerance)
@@ -138,7 +138,7 @@ def _order(labels: Sequence[str], names: list[str], preference: Sequence[str] | 
     preferred = list(dict.fromkeys(preference or ()))
     unknown = [label for label in preferred if label not in labels]
     if unknown:
-        raise InputError(f"preferred parameters {', '.join(unknown)} are not among those asked for: {', '.join(labels)}")
+        raise InputError(f"preferred parameters {several(unknown)} are not among those asked for: {several(labels)}")
     ordered = [label for label in preferred if label in names]
     ordered += [label for label in names if label not in ordered]
     return [names.index(label) for label in ordered]

@@ -10,7 +10,7 @@ from scipy.linalg import solve_triangular
 from scipy.special import stdtrit
 
 from elastogeo.equality import ByValue
-from elastogeo.errors import DegreesOfFreedomError, RankError
+from elastogeo.errors import DegreesOfFreedomError, RankError, several
 from elastogeo.estimate.confounding import RANK_TOLERANCE
 from elastogeo.estimate.estimate import Estimate
 from elastogeo.estimate.factor import Array, Factor, select
@@ -118,12 +118,12 @@ def solve(
     norms = chosen.column_norms
     if not norms.all():
         null = [label for label, norm in zip(labels, norms, strict=True) if not norm]
-        raise RankError(f"{', '.join(null)} changes no reading of this test, it cannot be estimated")
+        raise RankError(f"{several(null)} changes no reading of this test, it cannot be estimated")
     R = chosen.R / norms
     singular_values = np.linalg.svd(R, compute_uv=False)
     if singular_values[-1] <= tolerance * singular_values[0]:
         raise RankError(
-            f"the {len(labels)} parameters {', '.join(labels)} are not independent in this test; "
+            f"the {len(labels)} parameters {several(labels)} are not independent in this test; "
             f"ask for the confounding and solve for its retained set"
         )
     root = noise.root[:, [factor.labels.index(label) for label in labels]] / norms

@@ -2,9 +2,11 @@
 
 schema : its name and number
 software : {name, version}
-test : {name, machine, topology, instrument, simulated, reference_force_N, resolution_um, runs}
+test : {name, machine, topology, instrument, simulated, reference_force_N, resolution_um, runs, about, files}
     `simulated` says from what the readings are simulated and is empty if they were measured; `reference_force_N` is the
-    level that was taken off, or null; `runs` counts the runs of the test, the reference among them.
+    level that is subtracted, or null; `runs` counts the runs of the test, the reference among them; `about` holds what the
+    test says of date, operator, place and serial numbers; `files` the files that were read, each with its SHA-256 and
+    what it says of the simulation that made it: [{run, file, sha256, simulated}].
 verdict : [{name, passed, sentence, decisive}]
     If a decisive check fails, the data do not support what was asked.
 """
@@ -12,13 +14,14 @@ verdict : [{name, passed, sentence, decisive}]
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from math import isfinite
 from typing import Any
 
 import numpy as np
 
 from elastogeo.identification import Check
-from elastogeo.observe import MachineTest, instruments
+from elastogeo.observe import MachineTest
 from elastogeo.report.sentences import sentence_of
 from elastogeo.version import VERSION
 
@@ -38,23 +41,23 @@ def tested(test: MachineTest, reference_force: float | None) -> dict[str, Any]:
         "name": test.name,
         "machine": test.machine.name,
         "topology": test.machine.topology.compact,
-        "instrument": instrument_name(test),
+        "instrument": test.instrument,
         "simulated": test.simulated,
         "reference_force_N": reference_force,
         "resolution_um": in_um(test.resolution),
         "runs": len(test.runs),
+        "about": {key: value for key, value in asdict(test.about).items() if value},
+        "files": [
+            {"run": run.name, "file": run.file, "sha256": run.sha256, "simulated": run.simulated}
+            for run in test.runs
+            if run.sha256
+        ],
     }
 
 
 def verdict_entries(checks: Iterable[Check]) -> list[dict[str, Any]]:
     """Named checks."""
     return [{"name": c.name, "passed": c.passed, "sentence": sentence_of(c), "decisive": c.decisive} for c in checks]
-
-
-def instrument_name(test: MachineTest) -> str:
-    """The name of a test's instrument: as test files spell it, else that of its class."""
-    kind = type(test.setup)
-    return next((name for name, known in instruments().items() if known is kind), kind.__name__)
 
 
 def in_um(length: float | None) -> float | None:

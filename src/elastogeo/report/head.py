@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from elastogeo.observe import MachineTest
-from elastogeo.report.document import instrument_name
 from elastogeo.report.text import in_micrometres
 from elastogeo.report.view import Section, Table
 
@@ -21,7 +20,7 @@ def head(test: MachineTest) -> tuple[tuple[str, str], ...]:
     lines = [
         ("Machine", f"{test.machine.name}, {topology.compact} {topology.iso}"),
         ("Machine serial number", about.machine_serial),
-        ("Instrument", ", ".join(filter(None, (instrument_name(test).replace("-", " "), about.instrument)))),
+        ("Instrument", ", ".join(filter(None, (test.instrument.replace("-", " "), about.instrument)))),
         ("Instrument serial number", about.instrument_serial),
         ("Calibrated", about.instrument_calibrated),
         ("Date", about.date),
@@ -42,6 +41,15 @@ def files_section(test: MachineTest) -> tuple[Section, ...]:
     """The files that the runs were read from, with their hashes; none where there are none."""
     rows = tuple((run.name, run.file, run.sha256) for run in test.runs if run.sha256)
     return (Section("Files", tables=(Table(("run", "file", "SHA-256"), rows, words=(0, 1, 2)),)),) if rows else ()
+
+
+def origin(test: MachineTest) -> str:
+    """Whether the readings, or which of them, are simulated, and from what; empty if all were measured."""
+    if not test.simulated:
+        return ""
+    marked = sum(bool(run.simulated) for run in test.runs)
+    some = f" ({marked} of {len(test.runs)} runs)" if 0 < marked < len(test.runs) else ""
+    return f"Simulated{some}: {test.simulated}"
 
 
 def _path(test: MachineTest) -> str:

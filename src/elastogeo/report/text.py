@@ -9,6 +9,8 @@ from elastogeo.identification import Identification, Parameter
 from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
 
 UM = 1000.0
+MOST_TERMS = 6
+"""Terms of a sum that are written where there is little room; the folded sections and the JSON hold all."""
 UNTOLD = "compliance and geometry, not told apart"
 """What is said of a parameter that stands for a sum of both: none of its members may be named the cause."""
 _SAME = 1e-6
@@ -67,7 +69,7 @@ def said_value(parameter: Parameter, unit: DisplayUnit) -> str:
 
 def label(parameter: Parameter) -> str:
     """What a parameter is shown under: its name, or the whole sum where compliance and geometry are not told apart."""
-    return parameter.name if parameter.separated else combination(parameter.stands_for)
+    return parameter.name if parameter.separated else combination(parameter.stands_for, MOST_TERMS)
 
 
 def labels(result: Identification) -> dict[str, str]:
@@ -99,8 +101,18 @@ def shared_units(values: Iterable[tuple[str, str, float]]) -> dict[str, DisplayU
     return {name: display_unit(unit, largest[unit]) for name, unit, _ in values}
 
 
-def combination(terms: Mapping[str, float]) -> str:
-    """A labelled linear combination: `C_XXX + C_XXY - 0.5 C_YYX`."""
+def combination(terms: Mapping[str, float], most: int = 0) -> str:
+    """A labelled linear combination: `C_XXX + C_XXY - 0.5 C_YYX`.
+
+    Parameters
+    ----------
+    terms : mapping of str to float
+        Coefficients by name.
+    most : int
+        Terms to write before the others are counted; 0 for all.
+    """
+    if most and len(terms) > most + 1:
+        return f"{combination(dict(list(terms.items())[:most]))} + {len(terms) - most} more terms"
     text = ""
     for name, coefficient in terms.items():
         sign = "-" if coefficient < 0 else "+"

@@ -111,6 +111,7 @@ class DisplacementProbes(Setup):
         simulation=_SIMULATION,
         machine="huron_kx8",
         levels=(200.0, 400.0, 600.0),
+        repeats=2,
     )
 
     def __post_init__(self) -> None:
@@ -135,9 +136,13 @@ class DisplacementProbes(Setup):
         return "turn"
 
     def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
-        """The compliances in translation, and the probes' zeros."""
+        """The compliances in translation, the probes' zeros, and what the ball is off as it goes around.
+
+        X and Y follow the turn, so that error motions to the second degree are its harmonics to the second order.
+        """
         place = "w" if self.probes_in_workpiece else "t"
-        return ("C_[XYZ][XYZ]?", *(f"E_{axis}{place}0" for axis in "XYZ"))
+        turning = (f"E_[XYZ]{axis}[cs][12]" for axis in self.rotary_turn)
+        return ("C_[XYZ][XYZ]?", *(f"E_{axis}{place}0" for axis in "XYZ"), *turning)
 
     def facts(self) -> tuple[SetupFact, ...]:
         """Directions of probes and bar, the centre, what turns."""

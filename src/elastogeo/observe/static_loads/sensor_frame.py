@@ -154,6 +154,7 @@ class SensorFrame(Setup):
         simulation=_SIMULATION,
         machine="huron_kx8",
         levels=(300.0, 600.0),
+        repeats=3,
     )
 
     def __post_init__(self) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from elastogeo.identification import Circularity, Diagnosis
 from elastogeo.report.faults.diagnosis_document import diagnosis_json
 from elastogeo.report.faults.rows import diagnosis_rows
-from elastogeo.report.head import files_section, head
+from elastogeo.report.head import files_section, head, origin
 from elastogeo.report.identification.pictures import picture
 from elastogeo.report.numbers import pretty, significant
 from elastogeo.report.text import UM
@@ -39,7 +39,7 @@ def diagnosis_view(diagnosis: Diagnosis) -> View:
         kind="Diagnosis",
         title=test.machine.name,
         subtitle=test.name,
-        origin=f"Simulated: {test.simulated}" if test.simulated else "",
+        origin=origin(test),
         head=head(test),
         sentence=_answer(diagnosis),
         values=tuple(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from elastogeo.identification import WhatIf
 from elastogeo.report.faults.rows import what_if_rows
 from elastogeo.report.faults.what_if_document import what_if_json
-from elastogeo.report.head import head
+from elastogeo.report.head import head, origin
 from elastogeo.report.identification.pictures import picture
 from elastogeo.report.numbers import pretty
 from elastogeo.report.view import KeyValue, Section, Table, View, attention_sentence, said, views
@@ -31,7 +31,7 @@ def what_if_view(predicted: WhatIf) -> View:
         kind="What if",
         title=result.test.machine.name,
         subtitle=result.test.name,
-        origin=f"Simulated: {result.test.simulated}" if result.test.simulated else "",
+        origin=origin(result.test),
         head=head(result.test),
         sentence=f"With {names} corrected, {told} (predicted). {attention_sentence(result.verdict)}",
         values=tuple(

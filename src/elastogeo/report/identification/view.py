@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from elastogeo.estimate import Repeatability
 from elastogeo.identification import CONDITION_LIMIT, Comparison, Consistency, Identification, Level, Parameter
-from elastogeo.report.head import files_section, head
+from elastogeo.report.head import files_section, head, origin
 from elastogeo.report.identification.budgets import budget_tables, degrees, uncertainty_table
 from elastogeo.report.identification.document import identification_json
 from elastogeo.report.identification.pictures import picture
@@ -24,6 +24,7 @@ from elastogeo.report.identification.words import (
 )
 from elastogeo.report.numbers import pretty, probability, significant, value_with_uncertainty, written_unit
 from elastogeo.report.text import (
+    MOST_TERMS,
     all_separated,
     combination,
     display_units,
@@ -49,7 +50,7 @@ def identification_view(result: Identification) -> View:
         kind="Identification",
         title=test.machine.name,
         subtitle=test.name,
-        origin=f"Simulated: {test.simulated}" if test.simulated else "",
+        origin=origin(test),
         head=head(test),
         sentence=answer(result),
         values=key_values(result),
@@ -128,7 +129,9 @@ def level_table(result: Identification) -> Table:
 def stands_for(result: Identification) -> tuple[str, ...]:
     """What each retained name stands for, where it is not itself alone."""
     return tuple(
-        f"{p.name} stands for {combination(p.stands_for)}" if p.separated else f"only the sum is known: {label(p)}"
+        f"{p.name} stands for {combination(p.stands_for, MOST_TERMS)}"
+        if p.separated
+        else f"only the sum is known: {label(p)}"
         for p in result.parameters
         if len(p.stands_for) > 1
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from elastogeo.identification import StiffnessMap
-from elastogeo.report.head import files_section, head
+from elastogeo.report.head import files_section, head, origin
 from elastogeo.report.identification.pictures import picture
 from elastogeo.report.identification.view import parameter_table, stands_for
 from elastogeo.report.numbers import pretty
@@ -45,7 +45,7 @@ def stiffness_view(found: StiffnessMap) -> View:
         kind="Stiffness map",
         title=test.machine.name,
         subtitle=test.name,
-        origin=f"Simulated: {test.simulated}" if test.simulated else "",
+        origin=origin(test),
         head=head(test),
         sentence=f"Softest at {softest.direction}°, {softest.stiffness} N/µm; stiffest at {stiffest.direction}°, "
         f"{stiffest.stiffness} N/µm. {attention_sentence(checks)}",

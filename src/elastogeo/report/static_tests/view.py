@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from elastogeo.identification.static_tests import StaticResults
-from elastogeo.report.head import files_section, head
+from elastogeo.report.head import files_section, head, origin
 from elastogeo.report.identification.pictures import picture
 from elastogeo.report.identification.view import parameter_table, stands_for
 from elastogeo.report.static_tests.document import static_json
@@ -36,7 +36,7 @@ def static_view(found: StaticResults) -> View:
         kind="Static test",
         title=test.machine.name,
         subtitle=test.name,
-        origin=f"Simulated: {test.simulated}" if test.simulated else "",
+        origin=origin(test),
         head=head(test),
         sentence=f"{lead[:1].upper()}{lead[1:]}{attention_sentence(found.verdict)}",
         values=values,
