@@ -108,7 +108,7 @@ def parameter_table(result: Identification) -> Table:
         title="Parameters",
         note=f"U is half the 95 % interval. Peak to peak: the parameter's part of the trace at {strongest.force:g} "
         f"N, with the "
-        f"sign of the parameter; its share is that of the sum of all parts of the machine.{_unit_notes(result)}",
+        f"sign of the parameter; its share is that of the sum of all parts of the machine.",
     )
 
 
@@ -277,6 +277,7 @@ def _method(result: Identification) -> Section:
         "The global estimate is one least-squares solution over all force levels (Eqs. 4.28, 5.37), by orthogonal "
         "factorisation; local estimates use neighbouring levels (Eq. 4.29).",
         "Rank is decided on columns scaled to unit length; nothing is cut in silence.",
+        _unit_notes(result),
         "Intervals follow JCGM 100 (GUM), with Student's t"
         + ("; the covariance is by run, with effective degrees of freedom." if result.by_run else "."),
         "Equation and figure numbers are those of B. Beglarzadeh, Metrology of machine tool compliance under quasi-static "
@@ -303,7 +304,7 @@ def _unit_notes(result: Identification) -> str:
     """Each shown unit in those of the house."""
     by_name = display_units(result)
     notes = dict.fromkeys(_unit_note(p, by_name[p.name].name, by_name[p.name].factor) for p in result.parameters)
-    return f" {pretty('; '.join(note for note in notes if note))}." if any(notes) else ""
+    return f"{pretty('; '.join(note for note in notes if note))}." if any(notes) else ""
 
 
 def _unit_note(parameter: Parameter, shown: str, factor: float) -> str:
