@@ -71,7 +71,7 @@ def test_structure_in_the_residuals_is_named_with_its_order_and_size(make_test: 
     noise = Imperfection(noise=1e-5, residue=(Residue(5, 3e-4, phase=0.3),))
     check = verdict_of(simulate(test, TRUTH, noise, exact=False))["residuals without structure"]
     assert not check.passed
-    assert re.match(r"A harmonic of order 5 with an amplitude of 0\.30?\d? µm is left in run 100 N, 1", sentence_of(check))
+    assert re.match(r"A harmonic of order 5, amplitude 0\.30?\d? µm, is left in run 100 N, 1", sentence_of(check))
     assert "2 of 2 runs" in sentence_of(check)
 
 
