@@ -190,8 +190,9 @@ def test_what_models_forces_and_physics_say(separated, poor) -> None:
     document = identification_json(separated)
     assert document["models"]["supported"] == separated.models.supported
     first = document["models"]["models"][0]
-    assert first["p_value"] is None
-    assert first["left_out_level_um"] == 1000 * separated.models.models[0].left_out_level
+    assert first["p_value"] == separated.models.candidates[0].p_value
+    assert first["log_ratio"] is None
+    assert first["left_out_level_um"] == 1000 * separated.models.candidates[0].left_out_level
     assert document["local_change"]["p_value"] == separated.local_change.p_value
     assert document["consistency"]["state"] == separated.consistency.state
     assert document["levels"][-1]["elastic_um"] == [1000 * bound for bound in separated.levels[-1].elastic]

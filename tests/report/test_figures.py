@@ -115,7 +115,8 @@ def test_budget_bars_fill_the_whole_variance(separated) -> None:
 
 
 def test_models_mark_the_supported_one_and_leave_out_what_is_not_known(separated) -> None:
-    models = replace(separated.models, models=(replace(separated.models.models[0], left_out_level=None),))
+    models = replace(separated.models, candidates=(replace(separated.models.candidates[0], left_out_level=None),))
+    assert models.supported == "constant"
     ax = figure(replace(separated, models=models), "models").axes[0]
     assert [text.get_fontweight() for text in ax.get_yticklabels()] == ["bold"]
     assert [line.get_marker() for line in ax.lines if len(line.get_xdata()) == 1] == ["o", "D"]

@@ -23,7 +23,10 @@ from elastogeo.identification.identification import consistency_of, identify
 from elastogeo.identification.influences import Effect, effect, effects
 from elastogeo.identification.levels import ForceLevels, ForceSpread, force_levels
 from elastogeo.identification.local import adjacent, local_estimates
-from elastogeo.identification.models import Comparison, ModelFit, compare_models
+from elastogeo.identification.model_choice.candidates import COMPLIANCE, FORCE, GEOMETRY, SET_UP
+from elastogeo.identification.model_choice.choice import compare_models
+from elastogeo.identification.model_choice.following import OffLevel
+from elastogeo.identification.model_choice.result import Candidate, ModelChoice
 from elastogeo.identification.physics import PHYSICALLY_CONSISTENT, Consistency, consistency
 from elastogeo.identification.preference import moving_axes, retaining_order
 from elastogeo.identification.question import (
@@ -62,9 +65,13 @@ from elastogeo.identification.systems import RunSystem, Systems, merged, noise_o
 from elastogeo.identification.verdict import CONDITION_LIMIT
 
 __all__ = [
+    "COMPLIANCE",
     "CONDITION_LIMIT",
+    "FORCE",
+    "GEOMETRY",
     "PHYSICALLY_CONSISTENT",
     "SCATTER",
+    "SET_UP",
     "SIGNIFICANT",
     "Agreement",
     "AxisDrive",
@@ -73,12 +80,12 @@ __all__ = [
     "Branch",
     "Budget",
     "BudgetLine",
+    "Candidate",
     "Cartesian",
     "CartesianCompliance",
     "Change",
     "Check",
     "Circularity",
-    "Comparison",
     "Consistency",
     "Diagnosis",
     "Difference",
@@ -98,7 +105,8 @@ __all__ = [
     "LoadedPlace",
     "LoadedRun",
     "Local",
-    "ModelFit",
+    "ModelChoice",
+    "OffLevel",
     "OnAxis",
     "OnAxisPart",
     "OnAxisRecord",

@@ -23,7 +23,7 @@ from elastogeo.identification.check import Check
 from elastogeo.identification.fit import fitness, rmse, strongest_harmonic
 from elastogeo.identification.influences import Effect
 from elastogeo.identification.local import adjacent_estimates, change_between_levels, of_repeats
-from elastogeo.identification.models import compare_models
+from elastogeo.identification.model_choice.choice import compare_models
 from elastogeo.identification.physics import (
     NOT_TESTED,
     PHYSICALLY_CONSISTENT,
@@ -54,6 +54,7 @@ from elastogeo.identification.verdict import (
     identifiable,
     influences_stated,
     is_set_up,
+    levels_agree,
     model_adequate,
     residuals_unstructured,
     separated,
@@ -62,8 +63,8 @@ from elastogeo.identification.verdict import (
 from elastogeo.observe import MachineTest, Observations
 from elastogeo.sources import Source
 
-LEVELS_FOR_MODELS = 3
-"""How many force levels it takes to say more of a compliance than that it is constant."""
+LEVELS_FOR_MODELS = 2
+"""How many force levels it takes for a comparison of models to have anything to say, if only that they are too few."""
 
 
 def identify(test: MachineTest, **asked: Unpack[Asked]) -> Identification:
@@ -149,7 +150,9 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
     parameters, geometric = result.parameters, [p.name for p in result.parameters if not p.elastic]
     elastic = any(p.elastic and p.axis for p in parameters) and all(p.separated for p in parameters)
     if elastic and not systems.references and len(systems.levels) >= LEVELS_FOR_MODELS:
-        result = replace(result, models=compare_models(result.test.machine, systems, result.confounding.retained))
+        angular = result.test.setup.pose_quantity == "angle"
+        models = compare_models(result.test.machine, systems, result.confounding.retained, angular)
+        result = replace(result, models=models)
     result, drawn = _held_against_draws(result, systems, known)
     physics = None
     if elastic:
@@ -177,8 +180,9 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
         drawn,
         free_of_outliers([run.weights for run in systems.runs if run.weights is not None]) if robust else None,
         above_resolution({p.name: abs(p.peak_to_peak) for p in parameters}, result.test.resolution),
-        geometry_constant(result.local_change, geometric) if result.local_change and geometric else None,
         model_adequate(result.models) if result.models else None,
+        levels_agree(result.models) if result.models else None,
+        geometry_constant(result.models, result.local_change, geometric) if result.models and geometric else None,
         physics,
     )
     return replace(result, verdict=tuple(check for check in verdict if check is not None))

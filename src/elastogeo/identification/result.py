@@ -10,7 +10,7 @@ from elastogeo.estimate import Confounding, Estimate, Repeatability, Solution
 from elastogeo.identification.budget import Agreement, Budget
 from elastogeo.identification.change import Change
 from elastogeo.identification.check import Check
-from elastogeo.identification.models import Comparison
+from elastogeo.identification.model_choice.result import ModelChoice
 from elastogeo.identification.physics import Consistency
 from elastogeo.machine import Array
 from elastogeo.observe import MachineTest
@@ -201,7 +201,7 @@ class Identification(Result):
         Over all readings.
     agreement : Agreement or None
         Of the first-order budget with random draws; None if the test states no systematic influence.
-    models : Comparison or None
+    models : ModelChoice or None
         Models of the compliance against the force; None with a reference level, fewer than three levels, or no compliance.
     consistency : Consistency or None
         Whether the compliances agree with physics; None if none was asked for, or they are not told from geometry.
@@ -227,7 +227,7 @@ class Identification(Result):
     rmse: float
     verdict: tuple[Check, ...]
     agreement: Agreement | None = None
-    models: Comparison | None = None
+    models: ModelChoice | None = None
     consistency: Consistency | None = None
 
     def __getitem__(self, name: str) -> Parameter:

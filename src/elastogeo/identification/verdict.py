@@ -13,7 +13,7 @@ from elastogeo.identification.change import SIGNIFICANT, Change
 from elastogeo.identification.check import Check
 from elastogeo.identification.fit import Harmonic
 from elastogeo.identification.levels import ForceLevels
-from elastogeo.identification.models import Comparison
+from elastogeo.identification.model_choice.result import ModelChoice
 from elastogeo.identification.result import Parameter
 from elastogeo.machine import Array
 from elastogeo.sources import Source
@@ -81,12 +81,6 @@ def uncertainty_by_run(by_run: bool, runs: int, reference: bool, needed: int | N
     return Check("uncertainty by run", by_run, {"runs": runs, "reference": reference, "needed": needed})
 
 
-def geometry_constant(change: Change, geometric: Sequence[str]) -> Check:
-    """Whether the geometry that adjacent force levels give is the same at all forces."""
-    moved = {name: change.each[name] for name in geometric if change.each[name] < SIGNIFICANT / len(geometric)}
-    return Check("geometry constant", not moved, {"moved": moved})
-
-
 def first_order_enough(agreement: Agreement, parameters: Sequence[Parameter]) -> Check:
     """Whether the intervals to first order hold the share of random draws that they should (JCGM 101, 8)."""
     apart = {
@@ -112,17 +106,48 @@ def free_of_outliers(weights: Sequence[Array]) -> Check:
     return Check("free of outliers", far == 0, facts)
 
 
-def model_adequate(models: Comparison) -> Check:
-    """Whether the constant compliance is what the data support."""
-    constant = models.models[0]
-    better = next(model for model in models.models if model.name == models.supported)
-    facts = {
-        "supported": models.supported,
-        "exponent": better.exponent,
-        "left_out": better.left_out_level,
-        "left_out_constant": constant.left_out_level,
-    }
-    return Check("model adequate", models.supported == constant.name, facts)
+def model_adequate(models: ModelChoice) -> Check:
+    """Whether the model that was asked is the one that the data support."""
+    asked = models.candidates[0]
+    facts: dict[str, Any] = {"levels": models.levels, "runs": models.runs, "p_value": asked.p_value}
+    if models.supported is not None:
+        best = models.of(models.supported)
+        facts |= {
+            "supported": best.name,
+            "stands_for": best.stands_for,
+            "places": models.places,
+            "alike": tuple(name for name in models.alike if name != best.name),
+            "explained": models.explained,
+            "exponent": best.exponent,
+            "left_out": best.left_out_level,
+            "left_out_asked": asked.left_out_level,
+            "log_ratio": best.log_ratio,
+            "log_ratio_uncertainty": best.log_ratio_uncertainty,
+            "off_level": None if models.off_level is None else models.off_level.force,
+        }
+    return Check("model adequate", models.constant, facts)
+
+
+def levels_agree(models: ModelChoice) -> Check:
+    """Whether the supported model, fitted to all other levels, predicts each."""
+    off = models.off_level
+    facts: dict[str, Any] = {"levels": models.levels, "runs": models.runs}
+    if off is not None:
+        facts |= {"force": off.force, "size": off.size, "p_value": off.p_value}
+    return Check("levels agree", None if models.supported is None else off is None, facts)
+
+
+def geometry_constant(models: ModelChoice, change: Change | None, geometric: Sequence[str]) -> Check:
+    """Whether one geometry holds at all forces: it follows from the model that the data support.
+
+    What local estimates seem to say is beside it: where the model lacks something, they change with the force, although
+    nothing of the geometry does.
+    """
+    seeming: dict[str, float] = {}
+    if change is not None:
+        seeming = {name: change.each[name] for name in geometric if change.each[name] < SIGNIFICANT / len(geometric)}
+    passed = None if models.supported is None else models.explained
+    return Check("geometry constant", passed, {"seeming": seeming, "supported": models.supported})
 
 
 def residuals_unstructured(harmonics: Mapping[str, Harmonic], shared: Harmonic | None, rmse: float) -> Check:

@@ -25,9 +25,11 @@ local : [{forces_N, values: [{name, value, standard_uncertainty, degrees_of_free
     levels; the uncertainty is that of a scatter that is alike in all shapes of a trace
 local_change : null, or {statistic, q, degrees_of_freedom, p_value, significant, each: {name: p_value}}, whether the local
     estimates differ by more than their uncertainty
-models : null, or {supported, models: [{name, parameters, rmse_um, left_out_run_um, left_out_level_um, bic, p_value,
-    exponent, fitness_percent: [{force_N, value}]}]}; `supported` is decided by left-out levels; `bic` (less that of the
-    first) and `p_value` (F-test against the first) count on independent readings
+models : null, or {supported, explained, alike, places, off_level, tested, unseen, models: [{name, places, parameters, added:
+    [{name, value, stands_for}], exponent, rmse_um, left_out_run_um, left_out_level_um, log_ratio, log_ratio_uncertainty,
+    p_value, sufficient}]}; `supported` is null if nothing could be tested, `constant` for the model as asked; `alike` are
+    models that this test cannot distinguish; `p_value` says how likely as much seems missing from a model if nothing is;
+    `off_level` is null, or {force_N, size_um, p_value} of a level that does not follow the others
 consistency : null, or {state, why, constrained: {name: value}, distance, dimension, degrees_of_freedom, p_value, p_joint,
     p_negative: {name: p}, violated: [name], outward: {name: coefficient}}, whether the compliances agree with physics; the
     sentence is that of the check `physically consistent`
@@ -47,11 +49,11 @@ from elastogeo.identification import (
     Agreement,
     BudgetLine,
     Change,
-    Comparison,
     Consistency,
     Identification,
     Level,
     Local,
+    ModelChoice,
     Parameter,
 )
 from elastogeo.report.document import UM, document, in_um, tested, verdict_entries
@@ -189,22 +191,35 @@ def _local(local: Local) -> dict[str, Any]:
     }
 
 
-def _models(found: Comparison) -> dict[str, Any]:
+def _models(found: ModelChoice) -> dict[str, Any]:
+    off = found.off_level
     return {
         "supported": found.supported,
+        "explained": found.explained,
+        "alike": found.alike,
+        "places": found.places,
+        "off_level": None if off is None else {"force_N": off.force, "size_um": off.size * UM, "p_value": off.p_value},
+        "tested": found.tested,
+        "unseen": found.unseen,
         "models": [
             {
                 "name": model.name,
-                "parameters": model.labels,
+                "places": model.places,
+                "parameters": model.parameters,
+                "added": [
+                    {"name": name, "value": value, "stands_for": owners}
+                    for name, value, owners in zip(model.added, model.values, model.stands_for, strict=True)
+                ],
+                "exponent": model.exponent,
                 "rmse_um": model.rmse * UM,
                 "left_out_run_um": in_um(model.left_out_run),
                 "left_out_level_um": in_um(model.left_out_level),
-                "bic": model.bic,
+                "log_ratio": model.log_ratio,
+                "log_ratio_uncertainty": model.log_ratio_uncertainty,
                 "p_value": model.p_value,
-                "exponent": model.exponent,
-                "fitness_percent": [{"force_N": force, "value": value} for force, value in model.fitness.items()],
+                "sufficient": model.sufficient,
             }
-            for model in found.models
+            for model in found.candidates
         ],
     }
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from elastogeo.report.identification.models import left_out_said, model_said, supported_said
 from elastogeo.report.numbers import display_unit, probability, significant
 from elastogeo.report.sentences import Facts, says
 from elastogeo.report.text import UM
@@ -115,18 +116,6 @@ def uncertainty_by_run(facts: Facts, passed: bool | None) -> str:
     return f"No interval: {runs} run{'s are' if runs > 1 else ' is'} too few to show how far runs scatter; {remedy}."
 
 
-@says("geometry constant")
-def geometry_constant(facts: Facts, passed: bool | None) -> str:
-    """Which geometry seems to change with the force."""
-    moved = facts["moved"]
-    if passed:
-        return "The geometry estimated from adjacent force levels does not change by more than its uncertainty."
-    return (
-        f"{', '.join(moved)} {'seems' if len(moved) == 1 else 'seem'} to change with the force by more than the uncertainty "
-        f"(p = {min(moved.values()):.2g}): the compliance model is too simple; compare models."
-    )
-
-
 @says("first order enough")
 def first_order_enough(facts: Facts, passed: bool | None) -> str:
     """Whether the intervals to first order hold as many Monte Carlo trials as they should; else the intervals to use."""
@@ -163,18 +152,6 @@ def free_of_outliers(facts: Facts, passed: bool | None) -> str:
     return (
         f"{facts['outlying']} {'reading is' if one else 'readings are'} further off than {facts['limit']:g} standard "
         f"deviations: look for the cause. {price}."
-    )
-
-
-@says("model adequate")
-def model_adequate(facts: Facts, passed: bool | None) -> str:
-    """Which model of the compliance the data support."""
-    if passed:
-        return "A constant compliance predicts left-out levels as well as any richer model."
-    exponent = f" (exponent {facts['exponent']:.2f})" if facts["exponent"] else ""
-    return (
-        f"The data support a {facts['supported']} compliance{exponent}: it predicts left-out force levels to "
-        f"{(facts['left_out'] or 0) * UM:.3g} µm, a constant one to {(facts['left_out_constant'] or 0) * UM:.3g} µm."
     )
 
 
@@ -260,3 +237,58 @@ def _negative(name: str, found: Mapping[str, Any]) -> str:
     others = [other for other in found["stands_for"] if other != name]
     what = f" (the sum with {', '.join(others)})" if others else ""
     return f"{name}{what} is {significant(value)} {unit.name} with a standard uncertainty of {significant(uncertainty, 2)}."
+
+
+@says("model adequate")
+def model_adequate(facts: Facts, passed: bool | None) -> str:
+    """Which model the data support, and from what the test cannot distinguish it."""
+    if passed is None:
+        return (
+            f"Not tested: {facts['levels']} force levels in {facts['runs']} runs show no richer model. Add force levels or "
+            f"repeat runs."
+        )
+    if passed:
+        off = "" if facts["off_level"] is None else f", once {facts['off_level']:g} N is left out"
+        return (
+            f"Nothing of geometry, compliance, force or set-up is missing from the model{off} (p = {facts['p_value']:.2g})."
+        )
+    asked, best = left_out_said(facts["left_out_asked"]), left_out_said(facts["left_out"])
+    if not facts["explained"]:
+        return (
+            f"The model lacks something (p = {facts['p_value']:.2g}), and no model that was tried explains it; "
+            f"{model_said(facts['supported'])} comes nearest, and predicts left-out force levels to {best}, the model as "
+            f"asked to {asked}."
+        )
+    model = supported_said(facts["supported"], facts["stands_for"], facts["exponent"])
+    words = f"The data support {model}: it predicts left-out force levels to {best}, the model as asked to {asked}."
+    others = "; ".join(model_said(name) for name in facts["alike"])
+    return f"{words} This test cannot distinguish it from: {others}." if others else words
+
+
+@says("levels agree")
+def levels_agree(facts: Facts, passed: bool | None) -> str:
+    """Which force level does not follow the others."""
+    if passed is None:
+        return f"Not tested: {facts['levels']} force levels in {facts['runs']} runs are too few."
+    if passed:
+        return f"Each of the {facts['levels']} force levels is predicted by the others within their scatter."
+    return (
+        f"{facts['force']:g} N does not follow the other levels: it lies {facts['size'] * UM:.3g} µm (root mean square) "
+        f"from what they predict (p = {facts['p_value']:.2g}). Repeat it, or leave it out."
+    )
+
+
+@says("geometry constant")
+def geometry_constant(facts: Facts, passed: bool | None) -> str:
+    """Whether one geometry holds at all forces, and why local estimates may seem to say otherwise."""
+    if passed is None:
+        return "Not tested: too few force levels to distinguish a geometry that changes from a model that lacks something."
+    if not passed:
+        return "No model that was tried describes all force levels with one geometry."
+    seeming = ", ".join(facts["seeming"])
+    if seeming and facts["supported"] != "constant":
+        return (
+            f"One geometry holds at all forces with {model_said(facts['supported'])}. Local estimates of {seeming} seem to "
+            f"change with the force because the model as asked lacks that."
+        )
+    return "One geometry holds at all forces."

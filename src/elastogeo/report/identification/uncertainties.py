@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from elastogeo.identification import Comparison, Identification
+from elastogeo.identification import Identification, ModelChoice
 from elastogeo.report.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, new_figure
+from elastogeo.report.identification.models import SHOWN, model_said
 from elastogeo.report.text import UM, labels
 
 _COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7", "#e69f00", "#56b4e9", "#8c6bb1")
@@ -37,11 +38,12 @@ def budget_figure(result: Identification) -> Figure:
     return figure
 
 
-def models_figure(models: Comparison) -> Figure:
+def models_figure(models: ModelChoice) -> Figure:
     """Error of each model: over all readings, at left-out runs, at left-out force levels."""
-    figure = new_figure(1.05 + 0.33 * len(models.models))
+    shown = models.candidates[:SHOWN][::-1]
+    figure = new_figure(1.05 + 0.33 * len(shown))
     ax = figure.subplots()
-    for k, model in enumerate(models.models[::-1]):
+    for k, model in enumerate(shown):
         found = ((model.rmse, GREY, "o"), (model.left_out_run, BLUE, "D"), (model.left_out_level, ORANGE, "s"))
         known = [error * UM for error, _, _ in found if error is not None]
         ax.plot([min(known), max(known)], [k, k], color="#d9d9d9", linewidth=1.0, zorder=1)
@@ -51,12 +53,12 @@ def models_figure(models: Comparison) -> Figure:
     for name, colour, marker in (
         ("all readings", GREY, "o"),
         ("left-out runs", BLUE, "D"),
-        ("left-out force levels: this decides", ORANGE, "s"),
+        ("left-out force levels", ORANGE, "s"),
     ):
         ax.plot([], [], color=colour, marker=marker, markersize=6, linestyle="", label=name)
-    ticks = [f"{m.name}, {len(m.labels)} parameters" for m in models.models[::-1]]
+    ticks = [f"{model_said(m.name)}, {m.parameters} parameters" for m in shown]
     ax.set_yticks(range(len(ticks)), ticks, color=INK)
-    for text, model in zip(ax.get_yticklabels(), models.models[::-1], strict=True):
+    for text, model in zip(ax.get_yticklabels(), shown, strict=True):
         text.set_fontweight("bold" if model.name == models.supported else "normal")
     ax.tick_params(axis="y", length=0)
     ax.set_ylim(-0.6, len(ticks) - 0.4)

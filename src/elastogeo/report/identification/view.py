@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from elastogeo.estimate import Repeatability
-from elastogeo.identification import CONDITION_LIMIT, Comparison, Consistency, Identification, Level, Parameter
+from elastogeo.identification import CONDITION_LIMIT, Consistency, Identification, Level, ModelChoice, Parameter
 from elastogeo.report.head import files_section, head, origin
 from elastogeo.report.identification.budgets import budget_tables, degrees, uncertainty_table
 from elastogeo.report.identification.document import identification_json
+from elastogeo.report.identification.models import SHOWN, model_said, models_words, ratio_said
 from elastogeo.report.identification.pictures import picture
 from elastogeo.report.identification.words import (
     banner,
@@ -17,7 +18,6 @@ from elastogeo.report.identification.words import (
     has_influences,
     keep_in_mind,
     log_words,
-    models_words,
     repeats_words,
     structure_words,
     uncertainty_words,
@@ -148,7 +148,7 @@ def _sections(result: Identification) -> Iterator[Section]:
         yield Section("Compliance and geometry apart", pictures=(picture("separation", result),))
     yield Section("Fit", pictures=(picture("residuals", result),), tables=(level_table(result),))
     yield _uncertainty(result)
-    if result.models is not None:
+    if result.models is not None and result.models.supported is not None:
         yield _models(result, result.models)
     if result.local:
         paragraphs = (
@@ -181,22 +181,31 @@ def _uncertainty(result: Identification) -> Section:
     )
 
 
-def _models(result: Identification, models: Comparison) -> Section:
+def _models(result: Identification, models: ModelChoice) -> Section:
+    shown = models.candidates[:SHOWN]
     rows = [
         (
-            model.name if model.exponent is None else f"{model.name}, exponent {model.exponent:.2f}",
-            str(len(model.labels)),
+            model_said(model.name) if model.exponent is None else f"{model_said(model.name)}, exponent {model.exponent:.2f}",
+            str(model.parameters),
             in_micrometres(model.rmse),
             "–" if model.left_out_run is None else in_micrometres(model.left_out_run),
             "–" if model.left_out_level is None else in_micrometres(model.left_out_level),
-            "–" if model.p_value is None else pretty(probability(model.p_value)),
-            pretty(f"{model.bic:.0f}"),
+            ratio_said(model),
+            pretty(probability(model.p_value)),
         )
-        for model in models.models
+        for model in shown
     ]
-    supported = next(k for k, model in enumerate(models.models) if model.name == models.supported)
+    supported = next(k for k, model in enumerate(shown) if model.name == models.supported)
     table = Table(
-        ("compliance", "parameters", "RMSE, all [µm]", "left-out runs [µm]", "left-out levels [µm]", "F-test, p", "BIC"),
+        (
+            "model",
+            "parameters",
+            "RMSE, all [µm]",
+            "left-out runs [µm]",
+            "left-out levels [µm]",
+            "log of the ratio to the first",
+            "lacks more, p",
+        ),
         tuple(rows),
         strong=(supported,),
     )

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Mapping
 
 from elastogeo.estimate import Confounding
-from elastogeo.identification import SCATTER, SIGNIFICANT, Comparison, Identification, Parameter
+from elastogeo.identification import SCATTER, SIGNIFICANT, Identification, Parameter
 from elastogeo.observe import MachineTest
 from elastogeo.report.numbers import micro, probability, significant
 from elastogeo.report.sentences import sentence_of
@@ -98,28 +98,11 @@ def change_words(result: Identification) -> list[str]:
     p_value = probability(change.p_value)
     words = [
         f"All differences together: p = {p_value}. That is how often differences as great would come about if nothing "
-        f"changed, so {'something does change with the force' if change.significant else 'no change has been shown'}."
+        f"changed, so {'something seems to change with the force' if change.significant else 'no change has been shown'}."
     ]
     geometric = [p.name for p in result.parameters if not p.elastic and p.name in change.each]
     if geometric and all_separated(result):
         words.append(_geometry_words(change.each, geometric))
-    return words
-
-
-def models_words(models: Comparison) -> list[str]:
-    """What decides between models, and what does not."""
-    found = next(model for model in models.models if model.name == models.supported)
-    exponent = "" if found.exponent is None else f" (exponent {found.exponent:.2f})"
-    words = [
-        f"The data support a {found.name} compliance{exponent}. What decides is how well a model predicts force levels that "
-        f"it has not seen: the richer model must be better there, surely (95 % over the levels) and by a gain worth having."
-    ]
-    if any(model.left_out_level is None for model in models.models):
-        words.append("Where an error at left-out runs or levels is missing, the others do not determine that model.")
-    words.append(
-        "F-test and BIC are against the first model and count on independent readings. Readings along a trace are not "
-        "independent, so both take structure for evidence and favour rich models: they do not decide."
-    )
     return words
 
 
@@ -229,8 +212,8 @@ def _geometry_words(each: Mapping[str, float], geometric: list[str]) -> str:
         )
     return (
         f"{listed(moved)} {'changes' if len(moved) == 1 else 'change'} with the force by more than the uncertainty (p = "
-        f"{probability(min(each[name] for name in moved))}). Geometry cannot do that: the compliance model is too simple, "
-        f"and geometry is made to explain what it leaves."
+        f"{probability(min(each[name] for name in moved))}). Geometry cannot do that: where the model lacks something, "
+        f"geometry is made to explain it; whether it does, the comparison of models decides."
     )
 
 
