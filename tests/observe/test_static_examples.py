@@ -47,7 +47,7 @@ def test_every_estimate_is_near_the_truth(name: str) -> None:
     floor = result.naive.standard_uncertainty
     for parameter, least in zip(result.parameters, floor, strict=True):
         stated = sum(c * truth.get(name, 0.0) for name, c in parameter.stands_for.items())
-        assert abs(parameter.value - stated) < 4 * max(parameter.standard_uncertainty, least), parameter.name
+        assert abs(parameter.value - stated) < 4 * max(parameter.standard_uncertainty or 0.0, least), parameter.name
 
 
 def test_the_ramps_have_no_hysteresis_but_a_compliance() -> None:
