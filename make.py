@@ -46,7 +46,7 @@ TASKS = {
     "studies": (
         "count how often each check of a verdict is right, and write docs/verdicts.md (half an hour)",
         DEVELOPER,
-        [("studies", ["-m", "studies.run"])],
+        [("studies", ["-m", "studies.run"]), ("coverage", ["-m", "studies.coverage"])],
     ),
     "nightly": (
         "the tests that take too long for every day, then the studies",

@@ -171,7 +171,7 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
     verdict = (
         identifiable(result.confounding),
         forces_distinct(systems.applied, both) if elastic_sources else None,
-        geometry_modelled(systems.sources, reference) if elastic_sources and _goes_around(systems) else None,
+        geometry_modelled(systems.sources, reference, bool(around)) if elastic_sources and _goes_around(systems) else None,
         separated(parameters) if both else None,
         conditioned(result.confounding),
         residuals_unstructured(harmonics, shared, result.rmse) if around else None,

@@ -30,6 +30,8 @@ class Template:
         Whether each run is read counter-clockwise and clockwise.
     repeats : int
         Of each level.
+    influences : str
+        Tables `[[influences]]` of `test.toml`, with sizes that the user is to confirm.
     """
 
     title: str
@@ -42,7 +44,31 @@ class Template:
     levels: tuple[float, ...] = ()
     both_ways: bool = False
     repeats: int = 1
+    influences: str = ""
 
+
+FORCE = """\
+[[influences]]
+kind = "force-scale"
+label = "calibration of the force"
+relative = 0.01
+
+"""
+"""What is known of a force."""
+
+BAR = """\
+[[influences]]
+kind = "bar-length"
+label = "calibration of the bar"
+length_um = 0.5
+
+[[influences]]
+kind = "bar-length"
+label = "temperature of the bar, known to 0.5 K"
+length_um = 0.9                  # 11.5 um/(m K) x 150 mm x 0.5 K
+
+"""
+"""What is known of the length of a bar of 150 mm."""
 
 CIRCLE = """\
 [setup.circle]

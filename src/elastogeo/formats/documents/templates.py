@@ -36,12 +36,15 @@ resolution_um = {resolution:g}             # of the readings
 # [question]
 # parameters = ["C_XXX", "C_??Y"]  # names, patterns or presets: see elastogeo explain
 
-# What is known of systematic influences enters the uncertainty:
-# [[influences]]
-# kind = "force-scale"           # see docs/formats.md for the others
-# relative = 0.01
+# What is known of systematic influences enters the uncertainty: confirm or correct every size (kinds: docs/formats.md).
+{influences}# One entry a run. Columns of a run file: {columns}.
+"""
 
-# One entry a run. Columns of a run file: {columns}.
+_NO_INFLUENCE = """\
+# [[influences]]
+# kind = "sensor-scale"
+# relative = 0.002
+
 """
 
 _SIMULATION = """\
@@ -133,6 +136,7 @@ def new_test(
         resolution=template.resolution_um,
         setup=template.setup.replace("@CENTRE@", _centre(found)),
         columns=template.columns,
+        influences=template.influences or _NO_INFLUENCE,
     )
     runs = "".join(_runs(template, levels, repeats or template.repeats))
     simulation = _SIMULATION + template.simulation

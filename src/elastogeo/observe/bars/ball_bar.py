@@ -18,7 +18,7 @@ from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
-from elastogeo.observe.template import CIRCLE, Template
+from elastogeo.observe.template import BAR, CIRCLE, FORCE, Template
 
 MOST_TURNS = 10.0
 """Turns that a run may have."""
@@ -95,6 +95,8 @@ class LoadedBallBar(Setup):
         simulation=_SIMULATION,
         resolution_um=0.24,
         levels=(36.0, 238.0, 490.0, 742.0),
+        repeats=2,
+        influences=FORCE + BAR,
     )
 
     @property

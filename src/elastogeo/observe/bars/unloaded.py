@@ -17,7 +17,7 @@ from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
-from elastogeo.observe.template import CIRCLE, Template
+from elastogeo.observe.template import BAR, CIRCLE, Template
 
 _SIMULATION = """\
 readings = 720                   # of a full turn
@@ -67,6 +67,7 @@ class BallBar(Setup):
         level="",
         both_ways=True,
         repeats=3,
+        influences=BAR,
     )
 
     @property

@@ -33,7 +33,7 @@ from elastogeo.observe.static_loads.load import (
     unit_vectors,
     with_lever,
 )
-from elastogeo.observe.template import Template
+from elastogeo.observe.template import FORCE, Template
 
 MOST_TURNS = 10.0
 """Turns that a run may have."""
@@ -112,6 +112,7 @@ class DisplacementProbes(Setup):
         machine="huron_kx8",
         levels=(200.0, 400.0, 600.0),
         repeats=2,
+        influences=FORCE,
     )
 
     def __post_init__(self) -> None:

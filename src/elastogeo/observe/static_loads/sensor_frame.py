@@ -36,7 +36,7 @@ from elastogeo.observe.static_loads.load import (
     unit_vector,
     with_lever,
 )
-from elastogeo.observe.template import Template
+from elastogeo.observe.template import FORCE, Template
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,6 +155,7 @@ class SensorFrame(Setup):
         machine="huron_kx8",
         levels=(300.0, 600.0),
         repeats=3,
+        influences=FORCE,
     )
 
     def __post_init__(self) -> None:

@@ -34,7 +34,7 @@ from elastogeo.observe.static_loads.load import (
     unit_vector,
     with_lever,
 )
-from elastogeo.observe.template import Template
+from elastogeo.observe.template import FORCE, Template
 
 _SETUP = """\
 [setup]
@@ -103,6 +103,7 @@ class StaticForce(Setup):
         simulation=_SIMULATION,
         machine="huron_kx8",
         levels=(250.0, 500.0, 750.0),
+        influences=FORCE,
     )
 
     def __post_init__(self) -> None:
