@@ -231,23 +231,23 @@ def test_any_text_gives_a_table_or_a_format_error(pieces: list[str], encoding: s
 
 
 HEAVY = {
-    "one digit": b"level\n" + b"1\n" * 500_000,
-    "all bad": b"level\n" + b"x\n" * 500_000,
-    "all short": b"x_mm,y_mm\n" + b"1\n" * 500_000,
-    "all quoted": b"level\n" + b'"1"\n' * 250_000,
-    "all blank": b"level\n1" + b"\n" * 1_000_000,
-    "all comments": b"#a:b\n" * 200_000,
+    "one digit": b"level\n" + b"1\n" * 125_000,
+    "all bad": b"level\n" + b"x\n" * 125_000,
+    "all short": b"x_mm,y_mm\n" + b"1\n" * 125_000,
+    "all quoted": b"level\n" + b'"1"\n' * 125_000,
+    "all blank": b"level\n1" + b"\n" * 250_000,
+    "all comments": b"#a:b\n" * 50_000,
     "all cells": b"level\n" + (b"1," * 49_000 + b"\n") * 10,
     "all headers": b"x_mm," * 19_900 + b"\n1" * 450_000,
     "open brackets": b"x[a(" * 24_900 + b"\n1" * 450_000,
     "quotes": b"x_mm,y_mm\n" + (b'"' * 99_000 + b"\n") * 10,
     "digits": b"x_mm y_mm\n" + (b"0" * 99_000 + b",1 2\n") * 10,
-    "wide characters": "level\n# \N{GRINNING FACE}\n".encode() + b"1\n" * 500_000,
+    "wide characters": "level\n# \N{GRINNING FACE}\n".encode() + b"1\n" * 125_000,
 }
 
 
 @pytest.mark.parametrize("data", HEAVY.values(), ids=HEAVY.keys())
-def test_a_megabyte_of_anything_takes_little_memory(data: bytes) -> None:
+def test_a_large_text_of_anything_takes_little_memory(data: bytes) -> None:
     message = ""
     tracemalloc.start()
     try:

@@ -133,7 +133,8 @@ def test_damaged_and_foreign_parts_are_named(tmp_path):
     PartFolder(tmp_path, SERVER, CHANNELS).close()
 
 
-def test_kills_of_a_writer_lose_no_part_that_it_named(tmp_path):
+@pytest.mark.parametrize("kills", [2, pytest.param(30, marks=pytest.mark.nightly)])
+def test_kills_of_a_writer_lose_no_part_that_it_named(tmp_path, kills):
     """The writer prints a part's name once it is acknowledged; it is killed at the next line, at whatever it does then."""
     script = (
         "import sys\n"
@@ -148,7 +149,7 @@ def test_kills_of_a_writer_lose_no_part_that_it_named(tmp_path):
         "    print(parts.write(backlog.take([999])).name, flush=True)\n"
     )
     named = set()
-    for kill in range(4):
+    for kill in range(kills):
         writer = subprocess.Popen([sys.executable, "-c", script, str(tmp_path)], stdout=subprocess.PIPE, text=True)
         for _ in range(1 + kill % 3):
             named.add(writer.stdout.readline().strip())

@@ -277,3 +277,34 @@ def test_what_was_not_recorded_between_two_runs_is_a_gap(tmp_path):
     assert second.gaps() == (Gap("x", 20, 90, NOT_RECORDING),)
     assert second.recorder.witnesses_of(second.gaps()[0]) == (10, 20)
     assert second.recorder.result().in_folder == {"x": 3, "y": 1}
+
+
+def test_zeros_of_a_server_that_was_restarted_are_initial_values_and_no_samples(bench):
+    second = 1_000_000_000
+    bench.recorder.server_started(second)
+    bench.receive((0, 10 * second, 1.5, 0), (1, 10 * second, 0.0, 0))
+    bench.recorder.lose("cut")
+    bench.recorder.server_started(20 * second)
+    bench.receive((0, 21 * second, 0.0, 0), (1, 21 * second, 2.0, 0))
+    bench.receive((0, 22 * second, 0.0, 0), (1, 22 * second, 0.0, 0))
+    bench.receive((0, 23 * second, 1.25, 0), (0, 24 * second, 0.0, 0))
+    bench.write()
+    log = read_recording(bench.folder)
+    np.testing.assert_array_equal(log.channels["x"].values, [1.5, np.nan, np.nan, 1.25, 0.0])
+    np.testing.assert_array_equal(log.channels["y"].values, [0.0, 2.0, 0.0])
+    assert "2 samples are zeros of a server that was restarted: given without a number" in log.notes
+    assert bench.rows()[2] == ("x", 21 * second, 0.0), "what arrived is on the disk"
+    assert any("zeros after the server was restarted" in sentence for sentence in bench.told.sentences)
+
+
+def test_zeros_in_the_history_of_a_server_that_was_restarted_are_initial_values_too(bench):
+    bench.recorder.server_started(1)
+    bench.receive((0, 10, 1.5, 0))
+    bench.recorder.lose("cut")
+    bench.recorder.server_started(20)
+    bench.receive((0, 40, 3.0, 0))
+    (gap,) = bench.recorder.standing()
+    history = [Sample(0, 15, 0.0, 0), Sample(0, 21, 0.0, 0), Sample(0, 22, 2.0, 0), Sample(0, 23, 0.0, 0)]
+    asyncio.run(bench.recorder.fill(gap, history, ()))
+    bench.write()
+    np.testing.assert_array_equal(read_recording(bench.folder).channels["x"].values, [1.5, 0.0, np.nan, 2.0, 0.0, 3.0])

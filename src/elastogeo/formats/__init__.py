@@ -23,6 +23,7 @@ from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, log_formats, read_log
 from elastogeo.formats.logs.parquet import read_recording
 from elastogeo.formats.recording_files import (
+    INITIAL,
     SCHEMA,
     Gap,
     PartHead,
@@ -42,6 +43,7 @@ from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.whole_files import write_whole
 
 __all__ = [
+    "INITIAL",
     "SCHEMA",
     "CalibrationDocument",
     "Channel",

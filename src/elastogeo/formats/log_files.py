@@ -17,21 +17,24 @@ the contract tests in `tests/formats/test_log_files.py` run on it at once. A com
 
 
     def read(data: bytes, source: str) -> Log:
+        *lines, last = data.split(b"\\n")
         currents = []
-        for number, line in enumerate(data.splitlines()[1:], 2):
+        for number, line in enumerate(lines[1:], 2):
             try:
                 currents.append(float(line))
             except ValueError:
                 raise FormatError(f"{source}, line {number}: {line[:40]!r} is not a current; correct it") from None
         time = np.arange(len(currents)) / 1000
-        return Log({"current": Channel("current", "A", np.array(currents), time)}, {}, source)
+        notes = ("the last line has no end, so it may be cut off: left out",) if last else ()
+        return Log({"current": Channel("current", "A", np.array(currents), time)}, {}, source, notes)
 
 
     register(LogFormat("toy", ".toy", can_read, read, sample=lambda: b"TOYLOG\\n0.5\\n0.25\\n"))
 
 What the contract asks is what `run_files` asks of a format of runs: `can_read` never raises and says yes to its own files
 only; `read` turns any bytes into a `Log`, or raises a `FormatError` that says where, what arrived, why it will not do, and
-what to do. What it repairs, it says in the log's notes; it never drops, pads or rounds a sample in silence.
+what to do. What it repairs, it says in the log's notes; it never drops, pads or rounds a sample in silence. A recording that
+ends suddenly is still a recording: its whole samples are read; a last one that may be half a number is left out, and said.
 '''
 
 from __future__ import annotations

@@ -25,6 +25,8 @@ from elastogeo.formats.text.parquet_bytes import damaged, opened_parquet, pyarro
 from elastogeo.machine import Array
 
 SCHEMA = "elastogeo.recording/1"
+INITIAL = 0x40920000
+"""OPC UA's UncertainInitialValue: the recorder gives it to the zeros of a server that was restarted, until a value comes."""
 PART = re.compile(r"part-(\d{6,9})\.parquet", re.ASCII)
 
 _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)

@@ -7,11 +7,12 @@ import contextlib
 import signal
 import threading
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
-from elastogeo.formats import Gap
+from elastogeo.formats import INITIAL, Gap
 from elastogeo.recording.backlog import Backlog
 from elastogeo.recording.filling import Filler
 from elastogeo.recording.gaps import Follower, with_restart
@@ -89,6 +90,7 @@ class Recorder:
         self._notes: dict[str, None] = {}
         self._duration: float | None = None
         self._started: int | None = None
+        self._initial: set[int] = set()
         for name in begun.unfinished:
             self.note(f"{name} was left half written by a recording that was killed; it is ignored and may be deleted.")
 
@@ -139,11 +141,18 @@ class Recorder:
                 if self._lose(follower, SLOW_DISK):
                     self._watcher.say(f"{follower.channel}: {SLOW_DISK}; samples are lost and marked as a gap.")
                 continue
-            self._take(follower, sample)
+            self._take(follower, self._checked(sample))
 
     def server_started(self, time: int | None) -> None:
-        """Note when the server was started [ns since 1970, UTC]; None if it does not say so."""
+        """Note when the server was started [ns since 1970, UTC]; None if it does not say so.
+
+        A server that was restarted since the newest sample shows zeros until its machine gives it values; they are kept with
+        the status `INITIAL`.
+        """
         self._started = time
+        if time is not None:
+            lasts = enumerate(follower.last for follower in self._followers)
+            self._initial |= {number for number, last in lasts if last is not None and last < time}
 
     def lose(self, cause: str) -> None:
         """Note that samples of every channel may be missing from here on."""
@@ -172,6 +181,17 @@ class Recorder:
     def _is_again(self, sample: Sample) -> bool:
         value, status = self._values.get(sample.channel, (sample.value, sample.status))
         return (repr(value), status) == (repr(sample.value), sample.status)
+
+    def _checked(self, sample: Sample) -> Sample:
+        """The sample, with the status of an initial value if it is one."""
+        if sample.channel not in self._initial:
+            return sample
+        if sample.value == 0 and not sample.status:
+            name = self._followers[sample.channel].channel
+            self.note(f"{name!r}: zeros after the server was restarted are marked as initial values, not as measured.")
+            return replace(sample, status=INITIAL)
+        self._initial.discard(sample.channel)
+        return sample
 
     def _take(self, follower: Follower, sample: Sample) -> None:
         if follower.last is not None and sample.time < follower.last:
@@ -207,7 +227,13 @@ class Recorder:
         """Take samples that lie in a gap, and what remains of it, into one part."""
         while not self._backlog.is_calm(len(samples)):
             await asyncio.sleep(_TICK)
+        zeros = self._started is not None and gap.end is not None and gap.start < self._started < gap.end
         for sample in samples:
+            since = zeros and sample.time >= (self._started or 0)
+            if since and sample.value == 0 and not sample.status:
+                sample = replace(sample, status=INITIAL)
+            elif since:
+                zeros = False
             self._backlog.add(sample.channel, sample.time, sample.value, sample.status, filled=True)
         if gap in rest:
             return

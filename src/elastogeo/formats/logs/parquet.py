@@ -23,6 +23,7 @@ from elastogeo.errors import FormatError
 from elastogeo.formats.log import Channel, Log, in_time_order
 from elastogeo.formats.log_files import LogFormat, register
 from elastogeo.formats.recording_files import (
+    INITIAL,
     Gap,
     PartHead,
     RecordedChannel,
@@ -131,6 +132,7 @@ class _Part:
     dated: bool
     head: PartHead | None
     bad: int
+    initial: int
 
 
 def _part(table: Any, source: str) -> _Part:
@@ -155,11 +157,14 @@ def _part(table: Any, source: str) -> _Part:
         filled = np.zeros(len(value), dtype=np.bool_)
     bad = np.zeros(len(value), dtype=np.bool_) if status is None else (status & _BAD) != 0
     bad &= np.isfinite(value)
-    value = np.where(bad, np.nan, value)
+    initial = np.zeros(len(value), dtype=np.bool_) if status is None else status == INITIAL
+    value = np.where(bad | initial, np.nan, value)
     time, dated = _nanoseconds(table.column(clock), clock, source)
     head = head_of(table.schema.metadata or {}, source)
     index = channel.indices.to_numpy(zero_copy_only=False).astype(np.int64)
-    return _Part(tuple(channel.dictionary.to_pylist()), index, time, value, filled, dated, head, int(bad.sum()))
+    return _Part(
+        tuple(channel.dictionary.to_pylist()), index, time, value, filled, dated, head, int(bad.sum()), int(initial.sum())
+    )
 
 
 def _merged(parts: Sequence[_Part], source: str, notes: Sequence[str] = ()) -> Log:
@@ -209,6 +214,9 @@ class _Said:
             self.notes.append(f"{filled} samples were fetched afterwards, from the source's history")
         if bad:
             self.notes.append(f"{bad} samples are bad, says their source: given without a number")
+        initial = sum(part.initial for part in parts)
+        if initial:
+            self.notes.append(f"{initial} samples are zeros of a server that was restarted: given without a number")
 
     def units(self, parts: Sequence[_Part]) -> dict[str, str]:
         """The unit of each channel, the same in all parts."""

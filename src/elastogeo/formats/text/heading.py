@@ -19,6 +19,8 @@ PREAMBLE = "preamble"
 """Key of the metadata under which lines stand that say nothing in a form that is known."""
 
 _SEARCHED = 65_536
+_MOST = 500
+"""Bytes and lines among which a table begins."""
 _PAIR = re.compile(r"([^\W\d][^:=,;|\t\"]{0,79})[:=](.*)", re.DOTALL)
 _DIRECTION = re.compile(r"cc?w|(counter|anti)?[- ]?clockwise|g0?[23]", re.IGNORECASE)
 _KEY = re.compile(r"[^\W\d][^:=,;|\t\"]{0,79}")
@@ -154,10 +156,10 @@ def _are_units(cells: Sequence[str], width: int) -> bool:
 
 def _below_preamble(text: bytes) -> Heading | None:
     """The heading of the first table in a text: lines of as many cells that hold numbers, a line of names above them."""
-    lines = [line.strip() for line in text[:_SEARCHED].decode("utf-8", "ignore").split("\n")]
-    if len(text) > _SEARCHED:
-        lines.pop()
-    shown = [(number, line) for number, line in enumerate(lines, 1) if line]
+    *lines, last = text[:_SEARCHED].decode("utf-8", "ignore").split("\n", _MOST)
+    if len(text) <= _SEARCHED and len(lines) < _MOST:
+        lines.append(last)
+    shown = [(number, line.strip()) for number, line in enumerate(lines, 1) if line.strip()]
     for separator in (*SEPARATORS, None):
         rows = [_cells(line, separator) for _, line in shown]
         start = next((k for k in range(1, len(rows)) if _begins(rows, k)), 0)

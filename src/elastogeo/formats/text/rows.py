@@ -28,7 +28,8 @@ NO_NUMBER = (
 )
 """Cells, in lower case, that say that there is a sample but no number."""
 
-_BLOCK = 1 << 15
+_BLOCK, _SMALL_BLOCK = 1 << 15, 1 << 13
+"""Bytes that are taken at once of a large text and of any other: what is split into cells takes a hundred times its size."""
 _LARGE = 1 << 20
 """Bytes from which a text is worth the time that it takes to load pyarrow."""
 _MAY_BE_EMPTY = np.isin(np.arange(256), list(b' \t\f\v\n"#%/;'))
@@ -90,8 +91,9 @@ class Rows:
         while number <= self.heading.body and at < len(self.text):
             at = self.text.find(b"\n", at) + 1 or len(self.text)
             number += 1
+        size = _BLOCK if len(self.text) >= _LARGE else _SMALL_BLOCK
         while at < len(self.text):
-            end = self.text.find(b"\n", at + _BLOCK) + 1 or len(self.text)
+            end = self.text.find(b"\n", at + size) + 1 or len(self.text)
             raw = self.text[at:end]
             yield self._block(raw, number)
             number += raw.count(b"\n")
