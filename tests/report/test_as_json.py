@@ -88,6 +88,8 @@ def test_numbers_are_those_of_the_result(rich, separated) -> None:
         "reference_force_N": 36.0,
         "resolution_um": pytest.approx(0.24),
         "runs": 11,
+        "about": {},
+        "files": [],
     }
     first, parameter = document["parameters"][0], rich.parameters[0]
     assert first["value"] == parameter.value

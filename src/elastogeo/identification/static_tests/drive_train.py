@@ -358,7 +358,7 @@ def _limits(record: OnAxisRecord, feedback: str, parts: Sequence[OnAxisPart], wh
 
 
 def _counted(by_run: bool, runs: int) -> Check:
-    return Check("uncertainty by run", by_run, {"runs": runs, "reference": False})
+    return Check("uncertainty of the parts by run", by_run, {"runs": runs})
 
 
 def _springs(parts: Sequence[OnAxisPart]) -> Check:

@@ -74,6 +74,18 @@ def springs_in_series(facts: Facts, passed: bool | None) -> str:
     )
 
 
+@says("uncertainty of the parts by run")
+def uncertainty_of_the_parts(facts: Facts, passed: bool | None) -> str:
+    """What the uncertainties of the parts of a drive assume to be independent."""
+    runs = facts["runs"]
+    if passed:
+        return f"The uncertainties come from the scatter of {runs} runs."
+    return (
+        f"The uncertainties assume independent readings, because {runs} run{'s are' if runs > 1 else ' is'} too few. Readings "
+        f"along a load rarely are: repeat the load in several runs."
+    )
+
+
 @says("parts distinguished")
 def parts_distinguished(facts: Facts, passed: bool | None) -> str:
     """Which parts of a drive are known as a sum only."""
