@@ -81,7 +81,8 @@ def uncertainty_of_the_parts(facts: Facts, passed: bool | None) -> str:
     if passed:
         return f"The uncertainties come from the scatter of {runs} runs."
     return (
-        f"The uncertainties assume independent readings, because {runs} run{'s are' if runs > 1 else ' is'} too few. Readings "
+        f"The uncertainties assume independent readings, because {runs} run{'s are' if runs > 1 else ' is'} too "
+        f"few. Readings "
         f"along a load rarely are: repeat the load in several runs."
     )
 
