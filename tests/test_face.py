@@ -167,7 +167,7 @@ def test_machines_come_by_name_or_file() -> None:
 def test_a_test_is_compared_as_it_is_and_a_result_is_not_asked_again(result: Identification) -> None:
     found = eg.compare(result, result.test)
     assert found.before == found.after == result
-    assert all(difference.change == 0 for difference in found.differences)
+    assert all(difference.change.value == 0 for difference in found.differences)
     with pytest.raises(InputError, match="parameters cannot be asked of a result; ask the test"):
         eg.diagnose(result, parameters="ball-bar-xy")
 

@@ -103,7 +103,7 @@ def test_motor_parameters_are_those_that_were_known() -> None:
         ("coulomb", "N m"),
         ("constant", "N m"),
     ]
-    assert_allclose([p.value for p in found], [0.004, 0.07, 1.60, 0.0], rtol=1e-12, atol=1e-15)
+    assert_allclose([p.estimate.value for p in found], [0.004, 0.07, 1.60, 0.0], rtol=1e-12, atol=1e-15)
 
 
 @pytest.mark.parametrize(("axis", "load"), [("X", 2640.0), ("Y", 2590.0)])

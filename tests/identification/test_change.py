@@ -334,10 +334,10 @@ def test_compare_tests_says_what_changed(before_after: Callable[..., tuple[Machi
     assert "changed by more than the uncertainty of the two tests" in sentence_of(check)
     for d in found.differences:
         true = {"C_XXX": 1e-5, "E_YY1": 4e-5}.get(d.name, 0.0)
-        assert d.change == pytest.approx(d.after - d.before, rel=1e-12)
-        assert abs(d.change - true) < 5 * d.standard_uncertainty
-        assert np.mean(d.interval) == pytest.approx(d.change, rel=1e-9)
-        excluded = d.interval[0] > 0 or d.interval[1] < 0
+        assert d.change.value == pytest.approx(d.after - d.before, rel=1e-12)
+        assert abs(d.change.value - true) < 5 * d.change.standard_uncertainty
+        assert np.mean(d.change.interval()) == pytest.approx(d.change.value, rel=1e-9)
+        excluded = d.change.interval()[0] > 0 or d.change.interval()[1] < 0
         assert excluded == (d.p_value < 0.05), d.name  # the interval and the p-value say the same
 
 
@@ -357,7 +357,7 @@ def test_a_test_does_not_differ_from_itself(before_after: Callable[..., tuple[Ma
     found = compare(result, result)
     assert found.verdict[0].passed
     assert found.joint.p_value == 1.0
-    assert_allclose([d.change for d in found.differences], 0.0)
+    assert_allclose([d.change.value for d in found.differences], 0.0)
 
 
 def test_tests_of_different_machines_cannot_be_compared(make_test: MakeTest) -> None:

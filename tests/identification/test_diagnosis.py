@@ -144,7 +144,7 @@ def test_faults_are_signed_and_in_their_unit(diagnosis: Diagnosis) -> None:
         assert fault.distortion == pytest.approx(distortion, rel=0.03)
         assert np.sign(fault.distortion) == np.sign(value)
         assert fault.significant
-        assert 0 < fault.distortion_uncertainty < 0.1 * abs(fault.distortion)
+        assert 0 < fault.distortion_estimate.standard_uncertainty < 0.1 * abs(fault.distortion)
     assert by_name["T_X1"].also == ("T_Y1",)
     assert by_name["B_XX"].axis == "X"
     assert "backlash" in by_name["B_XX"].meaning
@@ -154,7 +154,7 @@ def test_cosine_and_sine_of_a_cyclic_error_are_one_fault(diagnosis: Diagnosis) -
     pairs = [fault for fault in diagnosis.faults if len(fault.names) == 2]
     assert {fault.names for fault in pairs} == {("P_XXc1", "P_XXs1"), ("P_YYc1", "P_YYs1")}
     x = next(fault for fault in pairs if fault.axis == "X")
-    assert x.value == pytest.approx(np.hypot(0.0008, 0.0006), abs=5 * x.standard_uncertainty)
+    assert x.value == pytest.approx(np.hypot(0.0008, 0.0006), abs=5 * x.estimate.standard_uncertainty)
     assert x.distortion == pytest.approx(0.002, rel=0.02)
     assert "cosine" not in x.meaning
 

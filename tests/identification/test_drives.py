@@ -87,7 +87,7 @@ def test_a_plain_drive_passes_every_check() -> None:
     assert {*names, "standstill left out"} <= set(checks(found))
     truth = {"inertia": 0.01, "viscous": 0.15, "coulomb": 4.0, "constant": 0.5}
     for parameter in found.parameters:
-        low, high = parameter.interval
+        low, high = parameter.estimate.interval()
         assert low < truth[parameter.name] < high
     assert found.supported == "plain"
     assert [score.run for score in found.held_out] == ["run 5"]
@@ -102,7 +102,8 @@ def test_a_smooth_drive_supports_a_smooth_sign() -> None:
     assert found.model == found.supported
     assert [value.name for value in found.fit.searched][:1] == ["smooth_speed"]
     coulomb = next(p for p in found.parameters if p.name == "coulomb")
-    assert coulomb.interval[0] < 4.0 < coulomb.interval[1], "the parameters that come first are those of the smooth sign"
+    low, high = coulomb.estimate.interval()
+    assert low < 4.0 < high, "the parameters that come first are those of the smooth sign"
     best = next(model for model in found.models if model.name == found.supported)
     assert best.better
     assert best.left_out.rmse == pytest.approx(0.2, rel=0.05)
@@ -150,9 +151,9 @@ def test_inertia_and_damping_are_given_at_the_motor_where_its_transmission_is_kn
     drives = {"X": FeedDrive("X", torque_constant=1650.0, pitch=10.0, efficiency=0.9)}
     (found,) = identify_drives(DriveTest("thesis", tuple(runs), drives, compare=False)).axes
     at_motor = {p.name: p.at_motor for p in found.parameters}
-    assert at_motor["inertia"][0] == pytest.approx(0.006)
-    assert at_motor["inertia"][2] == "kg m^2"
-    assert at_motor["viscous"][0] == pytest.approx(0.09)
+    assert at_motor["inertia"][0].value == pytest.approx(0.006)
+    assert at_motor["inertia"][1] == "kg m^2"
+    assert at_motor["viscous"][0].value == pytest.approx(0.09)
     assert at_motor["coulomb"] is None
 
 
@@ -217,7 +218,7 @@ def test_the_plain_model_gives_the_reference_figures_of_the_mill_to_their_digits
         samples, written, r2 = REFERENCE[found.axis]
         assert sum(found.fit.samples.values()) == samples
         assert [p.name for p in found.parameters] == ["inertia", "viscous", "coulomb", "constant"]
-        assert [to_digits(p.value, text) for p, text in zip(found.parameters, written, strict=True)] == written
+        assert [to_digits(p.estimate.value, text) for p, text in zip(found.parameters, written, strict=True)] == written
         assert to_digits(found.fit.r2, r2) == r2
         assert found.fit.counted == "runs"
         assert not checks(found)["sampled fast enough"]

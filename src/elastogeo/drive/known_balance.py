@@ -11,6 +11,7 @@ from elastogeo.drive.feed_drive import FeedDrive
 from elastogeo.drive.model import PLAIN, TorqueModel
 from elastogeo.drive.terms import Motion
 from elastogeo.errors import InputError
+from elastogeo.estimate import Estimate
 from elastogeo.machine import ROTARY, Array, Damping, Feed, Inertia, Torque
 
 
@@ -133,16 +134,14 @@ class MotorParameter:
     Attributes
     ----------
     label : str
-    value, standard_uncertainty : float
+    estimate : Estimate
+        In `unit`.
     unit : str
-    degrees_of_freedom : float
     """
 
     label: str
-    value: float
-    standard_uncertainty: float
+    estimate: Estimate
     unit: str
-    degrees_of_freedom: float
 
 
 _AT_SHAFT = {"inertia": "kg m²", "viscous": "N m s/rad"}
@@ -152,13 +151,14 @@ _AT_SHAFT = {"inertia": "kg m²", "viscous": "N m s/rad"}
 def motor_parameters(balance: TorqueBalance, drive: FeedDrive) -> tuple[MotorParameter, ...]:
     """A balance against the motion of an axis, turned to the motor's shaft (Table 6.4); one in N or A stays as it is."""
     sizes = np.sqrt(np.diag(balance.covariance))
-    found = zip(balance.labels, balance.values, sizes, balance.degrees_of_freedom, strict=True)
+    numbers = zip(balance.values, sizes, balance.degrees_of_freedom, strict=True)
+    found = zip(balance.labels, (Estimate(float(v), float(u), float(f)) for v, u, f in numbers), strict=True)
     if balance.effort_unit != "N mm" or drive.transmission_ratio is None:
-        return tuple(MotorParameter(label, float(v), float(u), balance.units[label], float(f)) for label, v, u, f in found)
+        return tuple(MotorParameter(label, estimate, balance.units[label]) for label, estimate in found)
     parameters = []
-    for label, value, size, freedom in found:
+    for label, estimate in found:
         kind = label.split()[0]
         factor = 1e-3 * (drive.transmission_ratio if kind in _AT_SHAFT else 1.0)
         unit = _AT_SHAFT.get(kind, "N m")
-        parameters.append(MotorParameter(label, float(value * factor), float(size * factor), unit, float(freedom)))
+        parameters.append(MotorParameter(label, estimate.scaled(factor), unit))
     return tuple(parameters)

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from decimal import Decimal
 from math import floor, isfinite, log10
 
+from elastogeo.estimate import Estimate
+
 UNKNOWN = "not known"
 _PLAIN = (1e-3, 1e6)
 """Magnitudes from the first to below the second are written without an exponent."""
@@ -99,6 +101,11 @@ def value_with_uncertainty(value: float, uncertainty: float) -> str:
     place = Decimal(1).scaleb(int(half.as_tuple().exponent))
     number = f"{Decimal(repr(value)).scaleb(-power).quantize(place):f} ± {half:f}"
     return f"({number})e{power:+03d}" if power else number
+
+
+def said_estimate(estimate: Estimate) -> str:
+    """An estimate as `value ± U` with U of 95 %."""
+    return value_with_uncertainty(estimate.value, estimate.expanded())
 
 
 def probability(p_value: float) -> str:

@@ -9,7 +9,7 @@ from typing import Unpack
 import numpy as np
 
 from elastogeo.errors import UnsupportedError
-from elastogeo.estimate import Solution, coverage_factor
+from elastogeo.estimate import Estimate, Solution
 from elastogeo.identification.change import SIGNIFICANT, Change, difference, difference_freedom
 from elastogeo.identification.check import Check
 from elastogeo.identification.identification import identified
@@ -27,9 +27,8 @@ class Difference:
     ----------
     name, unit : str
     before, after : float
-    change, standard_uncertainty : float
-    interval : tuple of 2 float
-        95 % coverage interval of the change.
+    change : Estimate
+        After less before.
     p_value : float
         Probability of such a change, or a greater one, if nothing changed.
     """
@@ -38,9 +37,7 @@ class Difference:
     unit: str
     before: float
     after: float
-    change: float
-    standard_uncertainty: float
-    interval: tuple[float, float]
+    change: Estimate
     p_value: float
 
 
@@ -126,15 +123,12 @@ def _difference(before: Identification, after: Identification, name: str, joint:
     one, other = (_combined(result, [name]) for result in (before, after))
     change = float(other.values[0] - one.values[0])
     uncertainty = float(np.sqrt(one.covariance[0, 0] + other.covariance[0, 0]))
-    half = float(coverage_factor(difference_freedom(one, other))[0]) * uncertainty
     return Difference(
         name=name,
         unit=next(p.unit for p in before.parameters if p.name == name),
         before=float(one.values[0]),
         after=float(other.values[0]),
-        change=change,
-        standard_uncertainty=uncertainty,
-        interval=(change - half, change + half),
+        change=Estimate(change, uncertainty, float(difference_freedom(one, other)[0])),
         p_value=joint.each[name],
     )
 

@@ -9,6 +9,7 @@ from typing import Unpack
 import numpy as np
 from scipy.special import fdtri
 
+from elastogeo.estimate import Estimate
 from elastogeo.identification.faults.circularity import Circularity, circularity
 from elastogeo.identification.faults.enclosing_circles import Path
 from elastogeo.identification.identification import identified
@@ -32,13 +33,13 @@ class Fault:
         The axis it sits at; empty for the set-up.
     value : float
         In `unit`; for a pair the amplitude.
-    standard_uncertainty : float or None
-        In `unit`; None where the runs are too few for one.
+    estimate : Estimate or None
+        The value with its uncertainty; None where the runs are too few for one.
     unit : str
     distortion : float [mm]
         Range of its part of the trace, with the sign of the value.
-    distortion_uncertainty : float or None [mm]
-        Its standard uncertainty.
+    distortion_estimate : Estimate or None [mm]
+        It with its uncertainty.
     share : float
         Of its parameters, together, as in the identification, 0 to 1; 0 for the set-up.
     significant : bool
@@ -51,10 +52,10 @@ class Fault:
     meaning: str
     axis: str
     value: float
-    standard_uncertainty: float | None
+    estimate: Estimate | None
     unit: str
     distortion: float
-    distortion_uncertainty: float | None
+    distortion_estimate: Estimate | None
     share: float
     significant: bool
     also: tuple[str, ...]
@@ -149,16 +150,18 @@ def _fault(result: Identification, members: tuple[int, ...]) -> Fault:
     value = float(values[0]) if len(chosen) == 1 else float(np.hypot(*values))
     slope = np.ones(1) if len(chosen) == 1 else values / (value or 1.0)
     uncertainty = float(np.sqrt(slope @ covariance @ slope))
+    freedom = float(result.budget.degrees_of_freedom[list(members)].min())
+    estimate = Estimate(value, uncertainty, freedom) if result.by_run else None
     per_unit = max(_distortion_per_unit(parameter) for parameter in chosen)
     return Fault(
         names=tuple(parameter.name for parameter in chosen),
         meaning=_meaning(chosen),
         axis=chosen[0].axis,
         value=value,
-        standard_uncertainty=uncertainty if result.by_run else None,
+        estimate=estimate,
         unit=chosen[0].unit,
         distortion=value * per_unit,
-        distortion_uncertainty=uncertainty * per_unit if result.by_run else None,
+        distortion_estimate=None if estimate is None else estimate.scaled(per_unit),
         share=sum(parameter.share for parameter in chosen),
         significant=result.by_run and _is_significant(values, covariance, result, members),
         also=tuple(name for parameter in chosen for name in parameter.stands_for if name != parameter.name),

@@ -26,6 +26,7 @@ from elastogeo.drive import (
     shared_masks,
 )
 from elastogeo.errors import InputError, UnsupportedError
+from elastogeo.estimate import Estimate
 from elastogeo.identification.feed_drives.result import DriveParameter, ModelScore
 
 WORTH_HAVING = 0.01
@@ -247,29 +248,22 @@ def parameters_of(fit: BalanceFit, drive: FeedDrive | None) -> tuple[DriveParame
     """The parameters of a fit, at the motor's shaft as well where the transmission is known."""
     meaning = {label: term.meaning for term in fit.model.chosen for label in term.units}
     ratio = drive.transmission_ratio if drive else None
-    values = fit.solution
     return tuple(
         DriveParameter(
             name=name,
             unit=fit.units[name],
             meaning=meaning.get(name, "load, per unit of its direction pattern"),
-            value=float(value),
-            standard_uncertainty=float(uncertainty),
-            interval=(float(low), float(high)),
+            estimate=estimate,
             stands_for=fit.confounding.stands_for(name),
-            at_motor=_at_motor(name, fit, float(value), float(uncertainty), ratio),
+            at_motor=_at_motor(name, fit, estimate, ratio),
         )
-        for name, value, uncertainty, (low, high) in zip(
-            values.labels, values.values, values.standard_uncertainty, values.interval(), strict=True
-        )
+        for name, estimate in zip(fit.solution.labels, fit.solution.estimates(), strict=True)
     )
 
 
-def _at_motor(
-    name: str, fit: BalanceFit, value: float, uncertainty: float, ratio: float | None
-) -> tuple[float, float, str] | None:
+def _at_motor(name: str, fit: BalanceFit, estimate: Estimate, ratio: float | None) -> tuple[Estimate, str] | None:
     """J_T and B_T of Eq. 6.6 at the shaft: per angle of the motor, not per travel of the axis."""
     if ratio is None or fit.effort_unit != "N mm" or "/" not in fit.units[name] or name in fit.mixed:
         return None
     factor, unit = (ratio / 1000, "kg m^2") if "s^2" in fit.units[name] else (ratio / 1000, "N m s/rad")
-    return value * factor, uncertainty * factor, unit
+    return estimate.scaled(factor), unit

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from elastogeo.drive import BalanceFit, DriveTest, LeftOut, RunScore, Structure
+from elastogeo.estimate import Estimate
 from elastogeo.identification.check import Check
 from elastogeo.result import Result
 
@@ -20,23 +21,20 @@ class DriveParameter:
     Attributes
     ----------
     name, unit, meaning : str
-    value, standard_uncertainty : float
-    interval : tuple of 2 float
-        95 %.
+    estimate : Estimate
+        In `unit`.
     stands_for : mapping of str to float
         The combination that it is: itself alone if it is told from all others.
-    at_motor : tuple of (float, float, str), or None
-        Value, standard uncertainty and unit at the motor's shaft, where the transmission is known and it differs there.
+    at_motor : tuple of (Estimate, str), or None
+        With its unit at the motor's shaft, where the transmission is known and it differs there.
     """
 
     name: str
     unit: str
     meaning: str
-    value: float
-    standard_uncertainty: float
-    interval: tuple[float, float]
+    estimate: Estimate
     stands_for: Mapping[str, float]
-    at_motor: tuple[float, float, str] | None = None
+    at_motor: tuple[Estimate, str] | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -91,7 +91,7 @@ def _terms(found: AxisDrive) -> Check:
 
 
 def _possible(found: AxisDrive) -> Check:
-    below = tuple(p.name for p in found.parameters if p.name in NEVER_NEGATIVE and p.interval[1] < 0)
+    below = tuple(p.name for p in found.parameters if p.name in NEVER_NEGATIVE and p.estimate.interval()[1] < 0)
     return Check("physically possible", not below, {"below": below})
 
 

@@ -60,16 +60,17 @@ def _circularity(found: Circularity) -> dict[str, Any]:
 
 
 def _fault(fault: Fault, result: Identification) -> dict[str, Any]:
-    shown, interval = described(fault, result), distortion_interval(fault, result)
+    spread = fault.distortion_estimate
+    shown, interval = described(fault, result), distortion_interval(fault)
     return {
         "names": shown.names,
         "meaning": shown.meaning,
         "axis": fault.axis if shown.separated else None,
         "value": fault.value,
         "unit": fault.unit,
-        "standard_uncertainty": fault.standard_uncertainty,
+        "standard_uncertainty": fault.estimate and fault.estimate.standard_uncertainty,
         "distortion_um": fault.distortion * UM,
-        "distortion_uncertainty_um": in_um(fault.distortion_uncertainty),
+        "distortion_uncertainty_um": None if spread is None else spread.standard_uncertainty * UM,
         "distortion_interval95_um": None if interval is None else [bound * UM for bound in interval],
         "share": fault.share,
         "significant": fault.significant,

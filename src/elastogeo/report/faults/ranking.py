@@ -19,7 +19,7 @@ def ranking_figure(diagnosis: Diagnosis) -> Figure:
     result, bars = diagnosis.identification, []
     for fault in reversed([fault for fault in diagnosis.faults if fault.axis]):
         shown = described(fault, result)
-        interval = distortion_interval(fault, result)
+        interval = distortion_interval(fault)
         low, high = (bound * UM for bound in interval or (fault.distortion, fault.distortion))
         kind = kind_of(result, [p for p in result.parameters if p.name in fault.names])
         name = fill(shown.meaning if shown.separated else shown.title, _WORDS)

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from elastogeo.estimate import coverage_factor
+from elastogeo.estimate import Estimate
 from elastogeo.identification import SIGNIFICANT, BeforeAfter, Diagnosis, Difference, Fault, Identification, WhatIf
-from elastogeo.report.numbers import DisplayUnit, display_unit, probability, significant, value_with_uncertainty
+from elastogeo.report.numbers import DisplayUnit, display_unit, probability, said_estimate, significant
 from elastogeo.report.signs import sign_sentence
 from elastogeo.report.text import UM, UNTOLD, in_micrometres, label, said_value, shared_units
 
@@ -116,12 +114,9 @@ def described(fault: Fault, result: Identification) -> Described:
     return Described((*fault.names, *fault.also), "; ".join(label(p) for p in members), UNTOLD, False, ())
 
 
-def distortion_interval(fault: Fault, result: Identification) -> tuple[float, float] | None:
+def distortion_interval(fault: Fault) -> tuple[float, float] | None:
     """The 95 % interval [mm] of how much a fault distorts the trace; None where there is none."""
-    if fault.distortion_uncertainty is None:
-        return None
-    half = _coverage(fault, result) * fault.distortion_uncertainty
-    return fault.distortion - half, fault.distortion + half
+    return None if fault.distortion_estimate is None else fault.distortion_estimate.interval()
 
 
 def diagnosis_rows(diagnosis: Diagnosis) -> tuple[DiagnosisRow, ...]:
@@ -131,13 +126,11 @@ def diagnosis_rows(diagnosis: Diagnosis) -> tuple[DiagnosisRow, ...]:
     ----------
     diagnosis : Diagnosis
     """
-    result = diagnosis.identification
-    factors = [_coverage(fault, result) for fault in diagnosis.faults]
-    sized = zip(diagnosis.faults, factors, strict=True)
-    units = shared_units((f.names[0], f.unit, abs(f.value) + k * (f.standard_uncertainty or 0.0)) for f, k in sized)
-    machine = [fault for fault in diagnosis.faults if fault.axis]
+    result, faults = diagnosis.identification, diagnosis.faults
+    units = shared_units((f.names[0], f.unit, abs(f.value) + (f.estimate.expanded() if f.estimate else 0.0)) for f in faults)
+    machine = [fault for fault in faults if fault.axis]
     rows = []
-    for fault, factor in zip(diagnosis.faults, factors, strict=True):
+    for fault in faults:
         shown, unit = described(fault, result), units[fault.names[0]]
         rows.append(
             DiagnosisRow(
@@ -145,9 +138,9 @@ def diagnosis_rows(diagnosis: Diagnosis) -> tuple[DiagnosisRow, ...]:
                 name=shown.title,
                 meaning=shown.meaning,
                 axis=fault.axis if shown.separated else "",
-                value=_with_half(fault.value, fault.standard_uncertainty, factor, unit.factor),
+                value=_said(fault.value, fault.estimate, unit.factor),
                 unit=unit.name,
-                distortion_um=_with_half(fault.distortion, fault.distortion_uncertainty, factor, UM),
+                distortion_um=_said(fault.distortion, fault.distortion_estimate, UM),
                 share_percent=f"{100 * fault.share:.1f}" if fault in machine else "",
                 significant=YES if fault.significant else NO,
                 also=", ".join(shown.also),
@@ -164,17 +157,17 @@ def _sentence(fault: Fault, result: Identification) -> str:
     return sign_sentence(signs[0], fault.value, fault.unit) if known and signs[0] else ""
 
 
-def _with_half(value: float, uncertainty: float | None, coverage: float, scale: float) -> str:
-    if uncertainty is None:
-        return significant(value * scale)
-    return value_with_uncertainty(value * scale, coverage * uncertainty * scale)
+def _said(value: float, estimate: Estimate | None, scale: float) -> str:
+    return significant(value * scale) if estimate is None else said_estimate(estimate.scaled(scale))
 
 
 def comparison_rows(before_after: BeforeAfter) -> tuple[ComparisonRow, ...]:
     """The rows of a comparison of two tests, the surest change first."""
     kinds: dict[str, float] = {}
     for found in before_after.differences:
-        kinds[found.unit] = max(kinds.get(found.unit, 0.0), abs(found.before), abs(found.after), *map(abs, found.interval))
+        kinds[found.unit] = max(
+            kinds.get(found.unit, 0.0), abs(found.before), abs(found.after), *map(abs, found.change.interval())
+        )
     count = len(before_after.differences)
     return tuple(
         _comparison_row(before_after, found, display_unit(found.unit, kinds[found.unit]), count)
@@ -203,12 +196,11 @@ def _comparison_row(before_after: BeforeAfter, found: Difference, unit: DisplayU
         next(p for p in result.parameters if p.name == found.name) for result in (before_after.before, before_after.after)
     ]
     one, other = (said_value(p, unit) for p in ends)
-    half = (found.interval[1] - found.interval[0]) / 2
     return ComparisonRow(
         name=label(ends[0]),
         before=one,
         after=other,
-        change=value_with_uncertainty(found.change * unit.factor, half * unit.factor),
+        change=said_estimate(found.change.scaled(unit.factor)),
         unit=unit.name,
         p_value=probability(found.p_value),
         changed=YES if found.p_value < SIGNIFICANT / count else NO,
@@ -223,9 +215,3 @@ def _what_if_row(force: float, what: str, before: float, after: float) -> WhatIf
         after_um=in_micrometres(after),
         change_percent=significant(100 * (after / before - 1), 2) if before else "",
     )
-
-
-def _coverage(fault: Fault, result: Identification) -> float:
-    """Coverage factor for 95 %, by the least degrees of freedom of its parameters."""
-    chosen = [result.budget.labels.index(name) for name in fault.names]
-    return float(coverage_factor(np.array([result.budget.degrees_of_freedom[chosen].min()]))[0])

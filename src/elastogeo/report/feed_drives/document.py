@@ -119,14 +119,16 @@ def _rest(rest: Rest) -> dict[str, Any]:
 def _parameter(parameter: DriveParameter) -> dict[str, Any]:
     at_motor = None
     if parameter.at_motor:
-        at_motor = dict(zip(("value", "standard_uncertainty", "unit"), parameter.at_motor, strict=True))
+        found, unit = parameter.at_motor
+        at_motor = {"value": found.value, "standard_uncertainty": found.standard_uncertainty, "unit": unit}
     return {
         "name": parameter.name,
-        "value": parameter.value,
+        "value": parameter.estimate.value,
         "unit": parameter.unit,
         "meaning": parameter.meaning,
-        "standard_uncertainty": parameter.standard_uncertainty,
-        "interval95": parameter.interval,
+        "standard_uncertainty": parameter.estimate.standard_uncertainty,
+        "degrees_of_freedom": parameter.estimate.degrees_of_freedom,
+        "interval95": parameter.estimate.interval(),
         "stands_for": parameter.stands_for,
         "at_motor": at_motor,
     }

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from elastogeo.drive import EVERY_LOG, RunScore, Searched
 from elastogeo.identification.feed_drives import AxisDrive, DriveIdentification, rmse_of
-from elastogeo.report.numbers import significant, value_with_uncertainty, written_unit
+from elastogeo.report.numbers import said_estimate, significant, written_unit
 from elastogeo.report.text import combination
 
 _UNIT_AT_MOTOR = {"kg m^2": "kg·m²", "N m s/rad": "N·m·s/rad"}
@@ -55,19 +55,13 @@ def drive_rows(axis: AxisDrive) -> tuple[DriveRow, ...]:
     """The parameters of an axis; a sum of terms that are not told apart stands under all their names."""
     rows = []
     for p in axis.parameters:
-        half = (p.interval[1] - p.interval[0]) / 2
         at_motor = ""
         if p.at_motor:
-            value, uncertainty, unit = p.at_motor
-            scale = half / p.standard_uncertainty if p.standard_uncertainty else 0.0
-            at_motor = f"{value_with_uncertainty(value, scale * uncertainty)} {_UNIT_AT_MOTOR[unit]}"
+            estimate, unit = p.at_motor
+            at_motor = f"{said_estimate(estimate)} {_UNIT_AT_MOTOR[unit]}"
         mixed = len(p.stands_for) > 1
         meaning = "not told apart" if mixed else p.meaning
-        rows.append(
-            DriveRow(
-                combination(p.stands_for), value_with_uncertainty(p.value, half), written_unit(p.unit), at_motor, meaning
-            )
-        )
+        rows.append(DriveRow(combination(p.stands_for), said_estimate(p.estimate), written_unit(p.unit), at_motor, meaning))
     return tuple(rows)
 
 

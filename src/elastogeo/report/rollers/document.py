@@ -48,9 +48,9 @@ def stiffness_json(found: StiffnessMap) -> dict[str, Any]:
                 {
                     "axis": axis,
                     "parameter": parameter.label,
-                    "value": parameter.value,
-                    "standard_uncertainty": parameter.standard_uncertainty,
-                    "degrees_of_freedom": parameter.degrees_of_freedom,
+                    "value": parameter.estimate.value,
+                    "standard_uncertainty": parameter.estimate.standard_uncertainty,
+                    "degrees_of_freedom": parameter.estimate.degrees_of_freedom,
                     "unit": parameter.unit,
                 }
                 for axis, parameters in found.motors.items()

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from elastogeo.estimate import coverage_factor
 from elastogeo.identification import Stiffness, StiffnessMap
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.numbers import significant, value_with_uncertainty
@@ -104,9 +103,8 @@ def balance_rows(found: StiffnessMap) -> tuple[BalanceRow, ...]:
     rows = []
     for axis, parameters in found.motors.items():
         for parameter in parameters:
-            freedom = np.array([max(parameter.degrees_of_freedom, 1.0)])
-            half = float(coverage_factor(freedom)[0]) * parameter.standard_uncertainty
-            shown = value_with_uncertainty(parameter.value, half) if half else f"{parameter.value:g} (given)"
+            value, half = parameter.estimate.value, parameter.estimate.expanded()
+            shown = value_with_uncertainty(value, half) if half else f"{value:g} (given)"
             rows.append(BalanceRow(axis, parameter.label, shown, parameter.unit))
     return tuple(rows)
 
