@@ -32,8 +32,6 @@ ALARM, SILENT, NOT_TESTED, ABSENT, REFUSED = "alarm", "silent", "not tested", "a
 NOMINAL = 0.05
 """False alarms that a check may give, unless its study says otherwise."""
 
-ROUNDING = 1e-12
-
 PART = 20
 """Draws that one process makes at a time."""
 
@@ -234,7 +232,7 @@ class Rate:
     def meets(self, cell: Cell) -> bool:
         """Whether the interval reaches what is wanted."""
         low, high = self.interval
-        return high >= cell.least - ROUNDING and low <= cell.most + ROUNDING
+        return high >= cell.least and low <= cell.most
 
 
 def wilson(hits: int, trials: int, level: float = 0.95) -> tuple[float, float]:
@@ -243,7 +241,7 @@ def wilson(hits: int, trials: int, level: float = 0.95) -> tuple[float, float]:
     share = hits / trials
     middle = (share + z * z / 2 / trials) / (1 + z * z / trials)
     half = z / (1 + z * z / trials) * sqrt(share * (1 - share) / trials + z * z / 4 / trials**2)
-    return max(0.0, middle - half), min(1.0, middle + half)
+    return (middle - half if hits else 0.0), (middle + half if hits < trials else 1.0)
 
 
 def seed_of(sample: Sample, trial: int) -> tuple[int, ...]:
