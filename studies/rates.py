@@ -39,7 +39,10 @@ Judge = Callable[[Any], str]
 
 
 class Sample(Protocol):
-    """Something to draw: hashable, and its `repr` says all that it depends on, since its seeds come from that."""
+    """Something to draw: hashable, and its `repr` says all that it depends on, since its seeds come from that.
+
+    A class whose draws take long may have a `share`: of the draws that its cells get otherwise.
+    """
 
     def draw(self, seed: tuple[int, ...]) -> object:
         """One draw: what the judges look at. An `ElastogeoError` counts as `refused`."""
@@ -136,6 +139,12 @@ class Cell:
     def key(self) -> str:
         """By which its counts are kept."""
         return f"{self.truth} | {self.layout} | {self.noise}"
+
+
+def draws(cell: Cell, sound: int, fault: int) -> int:
+    """How many draws a cell gets, of as many as cells get where nothing is wrong, and where there is a fault."""
+    share = cell.share * float(getattr(type(cell.sample), "share", 1.0))
+    return max(1, round(share * (fault if cell.least else sound)))
 
 
 @dataclass(frozen=True)

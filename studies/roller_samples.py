@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -41,6 +41,7 @@ class Mapped:
         By which the radius is off.
     """
 
+    share: ClassVar[float] = 0.25
     law: str = "spring"
     back: float = 2 - 1 / 0.9
     stated: bool = False

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from studies.checks import studies
 from studies.page import page, shown, wanted
-from studies.rates import Cell, Rate, Study, rates
+from studies.rates import Cell, Rate, Study, draws, rates
 
 ROOT = Path(__file__).resolve().parents[1]
 KEPT = ROOT / "studies" / "counts"
@@ -48,7 +48,7 @@ def run(chosen: dict[str, Study], trials: int, faults: int, workers: int) -> Non
     """Count the chosen studies, group by group, and keep the counts of each as it is done."""
     for names in groups(chosen):
         every = [cell for name in names for cell in chosen[name].cells]
-        found = rates(every, lambda cell: max(1, round(cell.share * (faults if cell.least else trials))), workers)
+        found = rates(every, lambda cell: draws(cell, trials, faults), workers)
         for name in names:
             write_counts(name, {cell.key: dict(found[cell].words) for cell in chosen[name].cells})
         print(f"counted: {', '.join(names)}", flush=True)

@@ -24,7 +24,15 @@ STUDY = Study(
     "own consequence.",
     (
         *cells(CHECK, "one geometry", LOADED, NOISES, most=0.05, short={("7 runs", "white"): 12}),
-        *cells(CHECK, "one geometry, every compliance falls by 20 %", LOADED, NOISES, Truth(softening=-0.2), most=0.05),
+        *cells(
+            CHECK,
+            "one geometry, every compliance falls by 20 %",
+            LOADED,
+            NOISES,
+            Truth(softening=-0.2),
+            most=0.05,
+            share=0.25,
+        ),
         *cells(
             CHECK,
             "one voice with `model adequate`, a four-lobe and a fall by 20 %",
