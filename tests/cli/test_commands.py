@@ -132,7 +132,7 @@ def test_wrong_usage_ends_with_2(elastogeo):
 
 
 def test_version_and_help_with_an_example_for_every_command(elastogeo):
-    assert elastogeo("--version") == (0, "elastogeo 0.1.0\n", "")
+    assert elastogeo("--version") == (0, "elastogeo 0.2.0\n", "")
     for command in ("demo", "new", "simulate", "identify", "explain", "machines"):
         code, out, _ = elastogeo(command, "--help")
         assert code == 0
