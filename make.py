@@ -39,9 +39,13 @@ TASKS = {
     ),
     "test": ("run every test", DEVELOPER, [("test", PYTEST)]),
     "bench": (
-        "time the solver on many readings, and Monte Carlo trials (minutes)",
+        "time whole commands, the solver on many readings, and Monte Carlo trials (minutes)",
         DEVELOPER,
-        [("bench", ["benchmarks/run.py"]), ("monte carlo", ["benchmarks/monte_carlo.py"])],
+        [
+            ("commands", ["benchmarks/commands.py"]),
+            ("solver", ["benchmarks/run.py"]),
+            ("monte carlo", ["benchmarks/monte_carlo.py"]),
+        ],
     ),
     "studies": (
         "count how often each check of a verdict is right, and write docs/verdicts.md (half an hour)",

@@ -122,6 +122,8 @@ def stiffness_figure(found: StiffnessMap) -> Figure:
     with house_style():
         figure = new_figure(5.2)
         ax = figure.add_subplot(projection="polar")
+        ax.tick_params(axis="x", pad=1)
+        figure.set_layout_engine("constrained", rect=(0.05, 0.0, 0.95, 1.0))
         low, high = (_closed(bound) / UM for bound in found.overall.stiffness_interval.T)
         around = _closed(found.overall.angle, turn=2 * np.pi)
         ax.fill_between(around, low, np.where(np.isfinite(high), high, low), color=BLUE, alpha=0.15, linewidth=0)

@@ -1,0 +1,74 @@
+"""What a user waits for: wall time and peak memory of whole commands, each in a process of its own, one thread.
+
+    python benchmarks/commands.py [RUNS]
+
+The least of RUNS (3) is the one that the rest of the machine disturbed least. Wanted on two quiet cores: 1 s, 4 s, 3 s, 3 s,
+each within 300 MiB.
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+COMMAND = [sys.executable, "-m", "elastogeo"]
+ROWS = 2_900_000
+"""Of the large CSV: about 46 MB."""
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+
+
+def large_csv(folder: Path) -> Path:
+    """A log of one axis: time, position, current."""
+    path = folder / "large.csv"
+    time_s = np.arange(ROWS) / 4000.0
+    position, current = 100 * np.sin(0.3 * time_s), np.cos(0.3 * time_s)
+    with path.open("w", encoding="ascii") as file:
+        file.write("time_s,x_mm,i_A\n")
+        for first in range(0, ROWS, 100_000):
+            part = slice(first, first + 100_000)
+            rows = zip(time_s[part], position[part], current[part], strict=True)
+            file.writelines(f"{t:.5g},{x:.4g},{i:.2f}\n" for t, x, i in rows)
+    return path
+
+
+def measured(arguments: list[str], runs: int) -> tuple[float, float]:
+    """Least wall time [s] and greatest memory [MiB] of a command."""
+    walls, peaks = [], []
+    for _ in range(runs):
+        start = time.perf_counter()
+        child = subprocess.Popen(arguments, cwd=ROOT, env={**os.environ, **ONE_THREAD}, stdout=subprocess.DEVNULL)
+        _, status, used = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        walls.append(time.perf_counter() - start)
+        peaks.append(used.ru_maxrss / 1024)
+        if child.returncode:
+            raise SystemExit(f"{' '.join(arguments)} ended with {child.returncode}")
+    return min(walls), max(peaks)
+
+
+def main() -> None:
+    runs = int(sys.argv[1]) if len(sys.argv) > 1 else 3
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        csv = large_csv(folder)
+        example, roller = str(ROOT / "examples" / "hermle-c50-ldbb"), str(ROOT / "examples" / "ball-roller")
+        read = "import sys; from elastogeo import read_log; read_log(sys.argv[1])"
+        cases = {
+            "identify, the example": [*COMMAND, "identify", example],
+            "identify, with its report": [*COMMAND, "identify", example, "--report", str(folder / "report")],
+            "stiffness, the ball-roller example": [*COMMAND, "stiffness", roller],
+            f"read a CSV of {csv.stat().st_size / 1e6:.0f} MB": [sys.executable, "-c", read, str(csv)],
+        }
+        print(f"{'whole command, one thread':<38}{'wall [s]':>9}{'peak [MiB]':>12}")
+        for what, arguments in cases.items():
+            wall, peak = measured(arguments, runs)
+            print(f"{what:<38}{wall:>9.2f}{peak:>12.0f}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
