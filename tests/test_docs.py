@@ -71,6 +71,16 @@ def test_every_page_is_reached_from_the_index_as_a_plain_file():
     assert linked == pages | {"decisions/README.md"}
 
 
+def test_the_keys_of_the_files_are_those_of_the_program_and_each_of_a_drive_file_is_described():
+    make_keys = script("make_keys")
+    page = make_keys.reference()
+    assert make_keys.PAGE.read_text(encoding="utf-8") == page, "run: python docs/make_keys.py"
+    drive = page[page.index("## drive.toml") : page.index("## test.toml")]
+    bare = re.findall(r"^\| `(\w+)` \|[^|]*\|  \|$", drive, re.MULTILINE)
+    assert set(bare) <= {"axis", "value"}
+    assert {"`[[drives]]`", "`held_out`", "`axes`", "`sense`"} <= set(re.findall(r"`[^`]+`", drive))
+
+
 def test_the_reference_of_the_command_line_is_that_of_the_commands():
     make_cli = script("make_cli")
     assert make_cli.PAGE.read_text(encoding="utf-8") == make_cli.reference(), "run: python docs/make_cli.py"

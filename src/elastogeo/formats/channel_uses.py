@@ -24,7 +24,7 @@ class ChannelUse:
     channel : str
         Its name in the file; empty for the channel whose name says this quantity.
     unit : str
-        Of its values, in a spelling of `units.UNITS`, where the file says none; `1` for a number without a unit.
+        Of its values, where the file says none: `A`, `mm`, `N m`, `%`, ...; `1` for a number without a unit.
     delay : float [s]
         By which its samples are late against those of the others; it is subtracted from its clock.
     rated_current, rated_torque, rated_force : float or None [A, N mm, N]
@@ -71,7 +71,7 @@ class Clock:
     sample_time : float or None [s]
         Of the common clock, and of a file that keeps none; by default that of the slowest channel chosen.
     longest_gap : float or None [s]
-        The longest gap that is bridged by a straight line; by default `GAP` sample times.
+        The longest gap that is bridged by a straight line; by default three sample times.
     """
 
     sample_time: Time | None = None

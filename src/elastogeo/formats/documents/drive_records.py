@@ -41,6 +41,7 @@ class LoadDocument:
     centre : tuple of 2 float [mm]
         Of the circle, in positions of the axes.
     axes : tuple of 2 str
+        Of the plane of the circle.
     """
 
     name: str

@@ -50,6 +50,18 @@ class ModelDocument:
 
     Attributes
     ----------
+    terms : tuple of str
+        Of Eq. 6.6: inertia, viscous, coulomb, constant; and coulomb asymmetric, viscous asymmetric, stribeck.
+    least_speed : float or None [mm/s]
+        Slower samples are left out; by default those that the record itself shows to be at rest.
+    smooth_speed : float or None [mm/s]
+        Over which friction sets in, `tanh(v / smooth_speed)`; by default its sign is sharp.
+    stribeck_speed : float or None [mm/s]
+        Of the term stribeck.
+    delay : float [s]
+        By which the effort is recorded later than the motion.
+    neighbours : float
+        Share, 0 to 0.5, of the mean of its two neighbours in the motion of a sample.
     search : tuple of str
         Which of smooth_speed, stribeck_speed, delay and neighbours are searched instead of given.
     compare : bool
@@ -71,7 +83,17 @@ class ModelDocument:
 
 @dataclass(frozen=True, slots=True)
 class KnownDocument:
-    """One entry of the table `known`: a parameter that is given. Its unit is that of the results."""
+    """One entry of the table `known`: a parameter that is given.
+
+    Attributes
+    ----------
+    axis : str
+    parameter : str
+        Its name in the results: inertia, viscous, ...
+    value : float
+    unit : str
+        As the results write it; another is refused.
+    """
 
     axis: str
     parameter: str
@@ -81,7 +103,15 @@ class KnownDocument:
 
 @dataclass(frozen=True, slots=True)
 class ShownDocument:
-    """One entry of the table `models`: the model whose parameters come first; without an axis, of all axes."""
+    """One entry of the table `models`: the model whose parameters come first.
+
+    Attributes
+    ----------
+    name : str
+        Of one of the models that are compared: plain, smooth sign, ...
+    axis : str
+        Empty: all axes.
+    """
 
     name: str
     axis: str = ""
@@ -89,7 +119,37 @@ class ShownDocument:
 
 @dataclass(frozen=True, slots=True)
 class DriveDocument:
-    """What a drive file says."""
+    """What a drive file says.
+
+    Attributes
+    ----------
+    schema : str
+        `elastogeo.drive/1`.
+    name : str
+        Of the test, for people.
+    logs : tuple of str
+        Log files beside this one, patterns (`run_*.csv`), folders of recordings. Each is a run, named after its file.
+    channels : tuple of ChannelUse
+        What the channels of the logs are; not needed where their names say quantity and unit.
+    clock : Clock
+        The clock that the channels of a log are put on.
+    axes : tuple of str
+        The axes to identify; all by default.
+    drives : tuple of FeedDrive
+        What turns the current of each axis into a force.
+    model : ModelDocument
+        The balance that is identified first.
+    known : tuple of KnownDocument
+        Parameters that are given.
+    loads : tuple of LoadDocument
+        Radial loads of unknown size on a circle.
+    held_out : tuple of str
+        Runs that are predicted only.
+    models : tuple of ShownDocument
+        Models whose parameters come first.
+    simulated : str
+        From what the logs are simulated; empty if they were measured.
+    """
 
     schema: str
     name: str

@@ -35,7 +35,26 @@ ReadRun = Callable[[Path], Table]
 
 @dataclass(frozen=True, slots=True)
 class RunDocument:
-    """One entry of the table `runs` of a test file; `start` and `end` [s]: the part of a log to take, on its own clock."""
+    """One entry of the table `runs` of a test file.
+
+    Attributes
+    ----------
+    file : str
+        The run file beside this one; `name#2` is the second run of a file; a log, or the folder of a recording.
+    name : str
+        By default that of the file.
+    force : float or None [N]
+    pressure : float or None [bar]
+        Of a loaded bar, in place of the force; needs a calibration.
+    engagement : float or None [mm]
+        Of a ball-roller run.
+    sense : str
+        ccw or cw; by default the one that the angles show.
+    repeat : int
+        Which repeat of its level it is, from 1.
+    start, end : float or None [s]
+        The part of a log to take, both ends included, on its own clock.
+    """
 
     file: str
     name: str = ""
