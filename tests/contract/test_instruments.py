@@ -262,15 +262,16 @@ def test_intervals_cover_at_their_rate(case: Case, plan: str) -> None:
 
 
 def test_intervals_cover_at_their_rate_from_simulation_to_result(case_of: Callable[[str], Case]) -> None:
-    """The whole way, from true parameters through simulated runs and the reference taken off to the stated interval."""
+    """The whole way, from true parameters through simulated runs and the reference subtracted to the interval by readings."""
     test = case_of("wFYXt-XY").test((36.0, 112.0, 490.0), readings=12, parameters=["planar-xy"], reference=36.0)
     truth = {name: value for name, value in random_truth(test).items() if name in names_of(test)}
     inside: Array = np.zeros(6)
     for seed in range(SHORT_DRAWS):
         result = identify(simulate(test, truth, Imperfection(noise=NOISE), seed=seed, exact=False))
-        for k, parameter in enumerate(result.parameters):
+        assert all(parameter.interval is None for parameter in result.parameters)
+        for k, (parameter, (low, high)) in enumerate(zip(result.parameters, result.naive.interval(), strict=True)):
             stated = sum(c * truth[name] for name, c in parameter.stands_for.items())
-            inside[k] += parameter.interval[0] <= stated <= parameter.interval[1]
+            inside[k] += low <= stated <= high
     check_coverage(inside, SHORT_DRAWS, "simulation to result")
 
 
@@ -303,10 +304,11 @@ def assert_same_answer(one: Identification, other: Identification, per_newton: f
     assert one.confounding.retained == other.confounding.retained
     assert one.confounding.null == other.confounding.null
     assert one.confounding.condition_scaled == pytest.approx(other.confounding.condition_scaled, rel=1e-10)
-    for a, b in zip(one.parameters, other.parameters, strict=True):
-        size = max(abs(a.value), a.standard_uncertainty)
+    uncertainties = zip(one.solution.standard_uncertainty, other.solution.standard_uncertainty, strict=True)
+    for a, b, (u, v) in zip(one.parameters, other.parameters, uncertainties, strict=True):
+        size = max(abs(a.value), u)
         assert b.value * per_newton == pytest.approx(a.value, abs=1e-10 * size)
-        assert b.standard_uncertainty * per_newton == pytest.approx(a.standard_uncertainty, rel=1e-9)
+        assert v * per_newton == pytest.approx(u, rel=1e-9)
         assert b.peak_to_peak == pytest.approx(a.peak_to_peak, rel=1e-8)
     assert one.rmse == pytest.approx(other.rmse, rel=1e-10)
 
@@ -341,6 +343,6 @@ def test_a_run_read_twice_has_the_weight_of_two(typical: Case) -> None:
     one = solve(merged(systems.runs), retained)
     two = solve(merged(systems_of(replace(test, runs=test.runs + again)).runs), retained)
     assert_allclose(two.values, one.values, rtol=1e-9, atol=1e-10 * np.abs(one.values).max())
-    m, p = sum(len(run.rows) for run in systems.runs), len(retained)
+    m, p = sum(run.factor.rows for run in systems.runs), len(retained)
     ratio = (two.standard_uncertainty / one.standard_uncertainty) ** 2
     assert_allclose(ratio, (m - p) / (2 * m - p), rtol=1e-9)

@@ -130,7 +130,10 @@ def test_the_path_is_that_of_identify() -> None:
     solution = solve_by_run([run.factor for run in systems.runs], confounding_of(test, systems).retained)
     budget = uncertainty_budget(systems, solution, effects_of(test, systems))
     assert result.by_run
-    assert_allclose([p.interval for p in result.parameters], budget.interval, rtol=1e-12)
+    assert result.agreement is not None
+    first_order = np.where(result.agreement.agrees[:, None], budget.interval, result.agreement.interval)
+    assert result.agreement.agrees.any()
+    assert_allclose([p.interval for p in result.parameters], first_order, rtol=1e-12)
     again = with_readings(systems_for("7 levels, twice"), np.array([run.reading for run in systems.runs]))
     assert_allclose(solve_by_run([run.factor for run in again.runs], solution.labels).covariance, solution.covariance)
 

@@ -57,7 +57,7 @@ def test_a_record_with_dwells_says_what_was_left_out_and_a_hold_out_agrees(noise
     assert rest.facts["left_out"] < 0.2 * rest.facts["kept"]
     assert "% of the samples are at standstill and were left out" in sentence_of(rest)
     coulomb = next(p for p in found.parameters if p.name == "coulomb")
-    assert coulomb.value == pytest.approx(TRUTH["coulomb"], rel=0.02)
+    assert coulomb.estimate.value == pytest.approx(TRUTH["coulomb"], rel=0.02)
 
 
 def test_a_least_speed_that_takes_the_dwells_is_called_so() -> None:
@@ -94,9 +94,9 @@ def test_the_parameters_of_the_supported_model_come_first(late: AxisDrive) -> No
     assert "time shift" in late.supported
     assert late.model == late.supported
     inertia = next(p for p in late.parameters if p.name == "inertia")
-    assert inertia.value == pytest.approx(0.01, rel=0.05)
+    assert inertia.estimate.value == pytest.approx(0.01, rel=0.05)
     plain = next(p for p in late.models[0].parameters if p.name == "inertia")
-    assert plain.value < 0.009
+    assert plain.estimate.value < 0.009
     assert check(late, "friction model adequate").passed
     assert check(late, "time shift distinct from averaging").passed
 

@@ -86,13 +86,6 @@ def compare(
         run.
     """
     before, after = identified(before, **asked), identified(after, **asked)
-    few = next((result for result in (before, after) if not result.by_run), None)
-    if few is not None:
-        raise UnsupportedError(
-            f"test {few.test.name!r} has too few runs, or subtracts a reference level: its values have no "
-            f"uncertainty by which "
-            f"a change could be judged; repeat the runs and ask without a reference level"
-        )
     machines = before.test.machine, after.test.machine
     if machines[0].topology != machines[1].topology:
         raise UnsupportedError(
@@ -102,6 +95,12 @@ def compare(
     common = [name for name in stands[0] if name in stands[1] and set(stands[0][name]) == set(stands[1][name])]
     if not common:
         raise UnsupportedError("the tests determine no parameter in common; ask both for the same ones")
+    few = next((result for result in (before, after) if not result.by_run), None)
+    if few is not None:
+        raise UnsupportedError(
+            f"test {few.test.name!r} has too few runs, or subtracts a reference level: its values have no uncertainty by "
+            f"which a change could be judged; repeat the runs and ask without a reference level"
+        )
     joint = difference(_combined(before, common), _combined(after, common))
     differences = sorted((_difference(before, after, name, joint) for name in common), key=lambda d: d.p_value)
     return BeforeAfter(before, after, tuple(differences), joint, (_verdict(differences, joint),))
