@@ -262,7 +262,7 @@ def test_intervals_cover_at_their_rate(case: Case, plan: str) -> None:
 
 
 def test_intervals_cover_at_their_rate_from_simulation_to_result(case_of: Callable[[str], Case]) -> None:
-    """The whole way, from true parameters through simulated runs and the reference subtracted to the interval by readings."""
+    """The whole way, from true parameters through simulated runs and the reference subtracted to intervals by readings."""
     test = case_of("wFYXt-XY").test((36.0, 112.0, 490.0), readings=12, parameters=["planar-xy"], reference=36.0)
     truth = {name: value for name, value in random_truth(test).items() if name in names_of(test)}
     inside: Array = np.zeros(6)
