@@ -59,10 +59,14 @@ _CAPTIONS = {
     ),
 }
 
+_ALONG = ("Measured and predicted readings of every force level.", "Measured and predicted readings of every force level")
+"""Of traces that do not go around a circle."""
+
 
 def picture(name: str, result: Identification) -> Picture:
     """A picture of an identification."""
-    caption, alternative = _CAPTIONS[name]
+    around = name != "traces" or result.test.setup.pose_quantity == "angle"
+    caption, alternative = _CAPTIONS[name] if around else _ALONG
     return Picture(name, caption, alternative, lambda: _drawn(name, result))
 
 

@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MultipleLocator
 
 from elastogeo.identification import Identification, Trace
+from elastogeo.machine import Array
 from elastogeo.report.drawing.circles import (
     Scale,
     around,
@@ -163,13 +164,19 @@ def _along(result: Identification) -> Figure:
     label, factor = pose_axis(result)
     for force, colour in force_colours([level.force for level in result.levels]).items():
         for trace, again in of_level(result, force):
-            pose, measured = thinned(trace.pose, trace.measured * UM, len(result.traces))
+            pose, measured = _broken(*thinned(trace.pose, trace.measured * UM, len(result.traces)))
             name = "_" if again else f"{force:g} N"
             ax.plot(pose * factor, measured, color=colour, linewidth=0.4 if again else 1.6, label=name)
-            pose, predicted = thinned(trace.pose, trace.predicted * UM, len(result.traces))
+            pose, predicted = _broken(*thinned(trace.pose, trace.predicted * UM, len(result.traces)))
             ax.plot(pose * factor, predicted, color=INK, linewidth=0.7, linestyle=(0, (4, 3)), label="_")
     ax.plot([], [], color=INK, linewidth=0.7, linestyle=(0, (4, 3)), label="predicted")
     ax.set_xlabel(label)
     ax.set_ylabel("reading (µm)")
     ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     return figure
+
+
+def _broken(pose: Array, values: Array) -> tuple[Array, Array]:
+    """A line that breaks where the next sensor begins: where the pose jumps back over more than half of its span."""
+    back = np.flatnonzero(np.abs(np.diff(pose)) > np.ptp(pose) / 2) + 1
+    return np.insert(pose, back, np.nan), np.insert(values, back, np.nan)
