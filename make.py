@@ -22,7 +22,7 @@ VENV = ROOT / ".venv"
 VENV_PYTHON = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 STAMP = VENV / "elastogeo-install.json"
 
-PYTEST = ["-m", "pytest", "-n", "auto"]
+PYTEST = ["-m", "pytest", "-n", "auto", "--dist", "worksteal"]
 DEVELOPER = ["all", "dev", "docs"]
 CHECKS = [
     ("lint", ["-m", "ruff", "check", "."]),
