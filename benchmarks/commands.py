@@ -23,16 +23,15 @@ ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_
 
 
 def large_csv(folder: Path) -> Path:
-    """A log of one axis: time, position, current."""
+    """A run of a ball bar with very many readings: angle and radial deviation."""
     path = folder / "large.csv"
-    time_s = np.arange(ROWS) / 4000.0
-    position, current = 100 * np.sin(0.3 * time_s), np.cos(0.3 * time_s)
+    angle = np.linspace(0, 360, ROWS)
+    radial = 5 * np.sin(np.deg2rad(2 * angle))
     with path.open("w", encoding="ascii") as file:
-        file.write("time_s,x_mm,i_A\n")
+        file.write("angle_deg,radial_um\n")
         for first in range(0, ROWS, 100_000):
             part = slice(first, first + 100_000)
-            rows = zip(time_s[part], position[part], current[part], strict=True)
-            file.writelines(f"{t:.5g},{x:.4g},{i:.2f}\n" for t, x, i in rows)
+            file.writelines(f"{a:.4f},{r:.3f}\n" for a, r in zip(angle[part], radial[part], strict=True))
     return path
 
 
@@ -57,7 +56,7 @@ def main() -> None:
         folder = Path(name)
         csv = large_csv(folder)
         example, roller = str(ROOT / "examples" / "hermle-c50-ldbb"), str(ROOT / "examples" / "ball-roller")
-        read = "import sys; from elastogeo import read_log; read_log(sys.argv[1])"
+        read = "import sys; from elastogeo.formats import read_run; read_run(sys.argv[1])"
         cases = {
             "identify, the example": [*COMMAND, "identify", example],
             "identify, with its report": [*COMMAND, "identify", example, "--report", str(folder / "report")],
