@@ -23,7 +23,7 @@ from elastogeo.identification import (
     systems_of,
 )
 from elastogeo.machine import Array
-from elastogeo.observe import Circle, Imperfection, MachineTest, Residue
+from elastogeo.observe import Circle, Imperfection, MachineTest, Question, Residue
 from elastogeo.report import sentence_of
 from elastogeo.sources import simulate
 
@@ -198,3 +198,11 @@ def test_peak_to_peak_is_at_the_strongest_force_with_the_sign_of_the_value(make_
     spans = {parameter.name: parameter.peak_to_peak for parameter in result.parameters}
     assert spans == pytest.approx({"C_XXX": 0.024, "C_YYY": -0.012})
     assert {p.name: p.share for p in result.parameters} == pytest.approx({"C_XXX": 2 / 3, "C_YYY": 1 / 3})
+
+
+def test_sums_are_no_fault_of_a_default_question(make_test: MakeTest) -> None:
+    test = simulate(make_test("wFYXt", [100.0, 400.0, 700.0]), TRUTH, exact=False)
+    check = verdict_of(replace(test, question=Question()))["identifiable"]
+    assert check.passed
+    assert check.facts["rank"] < check.facts["asked"]
+    assert f"determines {check.facts['rank']} combinations" in sentence_of(check)

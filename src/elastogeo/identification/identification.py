@@ -169,7 +169,7 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
     )
     stated = [*(effect.influence.label for effect in known), *(one.label or one.kind for one in result.test.influences)]
     verdict = (
-        identifiable(result.confounding),
+        identifiable(result.confounding, by_default=not result.test.question.parameters),
         forces_distinct(systems.applied, both) if elastic_sources else None,
         geometry_modelled(systems.sources, reference, bool(around)) if elastic_sources and _goes_around(systems) else None,
         separated(parameters) if both else None,

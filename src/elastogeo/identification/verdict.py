@@ -29,10 +29,13 @@ CONDITION_LIMIT = 30.0
 """Scaled condition number above which estimates are strongly coupled (Belsley, Kuh and Welsch, 1980)."""
 
 
-def identifiable(found: Confounding) -> Check:
-    """Whether every parameter that was asked for is determined by itself."""
-    facts = {"asked": len(found.labels), "rank": found.rank, "null": len(found.null)}
-    return Check("identifiable", found.rank == len(found.labels), facts)
+def identifiable(found: Confounding, by_default: bool = False) -> Check:
+    """Whether every parameter that was asked for is determined by itself.
+
+    `by_default`: the question is the instrument's own, which asks for all that a machine may have, and so for sums.
+    """
+    facts = {"asked": len(found.labels), "rank": found.rank, "null": len(found.null), "by_default": by_default}
+    return Check("identifiable", by_default or found.rank == len(found.labels), facts)
 
 
 def conditioned(found: Confounding, remedy: str = "levels") -> Check:

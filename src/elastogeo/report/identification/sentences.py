@@ -25,6 +25,12 @@ _NOT_TESTED = {
 def identifiable(facts: Facts, passed: bool | None) -> str:
     """How many parameters the test determines."""
     asked, rank, null = facts["asked"], facts["rank"], facts["null"]
+    if facts["by_default"] and rank < asked:
+        return (
+            f"The instrument's default question has {asked} parameters, of which the test determines {rank} "
+            f"combinations; what "
+            f"each stands for is said."
+        )
     if passed:
         return f"All {asked} parameters are determined by the test."
     return (
