@@ -41,6 +41,7 @@ from elastogeo.identification.question import (
 )
 from elastogeo.identification.result import Identification, Level, Parameter, Pattern, Trace
 from elastogeo.identification.robust import downweighted
+from elastogeo.identification.rounding import ROUNDING
 from elastogeo.identification.shared_structure import shared_harmonic
 from elastogeo.identification.systems import RunSystem, Systems, merged, noise_of
 from elastogeo.identification.verdict import (
@@ -167,7 +168,8 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
     needed = (
         None if result.by_run or reference else runs_needed([run.factor for run in systems.runs], result.solution.labels)
     )
-    stated = [*(effect.influence.label for effect in known), *(one.label or one.kind for one in result.test.influences)]
+    labels = [effect.influence.label for effect in known]
+    stated = [*(label for label in labels if label != ROUNDING), *(one.label or one.kind for one in result.test.influences)]
     verdict = (
         identifiable(result.confounding, by_default=not result.test.question.parameters),
         forces_distinct(systems.applied, both) if elastic_sources else None,

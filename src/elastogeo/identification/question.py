@@ -12,6 +12,7 @@ from elastogeo.identification.influences import Effect, effects
 from elastogeo.identification.levels import force_levels, force_spread
 from elastogeo.identification.preference import retaining_order
 from elastogeo.identification.reciprocity import Reciprocity, reciprocal_sources, reciprocity
+from elastogeo.identification.rounding import rounding_effects
 from elastogeo.identification.systems import Systems, merged, run_systems
 from elastogeo.observe import MachineTest, Observations, Question
 from elastogeo.sources import Source, select_sources
@@ -139,8 +140,9 @@ def what_reciprocity_buys(test: MachineTest) -> Reciprocity:
 
 
 def effects_of(test: MachineTest, systems: Systems) -> tuple[Effect, ...]:
-    """The effects of the systematic influences that a test states; none where a reference level is subtracted.
+    """The effects of the systematic influences that a test states, and of what rounding its repeats share.
 
-    They would enter reference and level alike, and an estimate of differences has no interval that they could widen.
+    None where a reference level is subtracted: they would enter reference and level alike, and an estimate of differences
+    has no interval that they could widen.
     """
-    return () if systems.references else effects(test, systems)
+    return () if systems.references else (*effects(test, systems), *rounding_effects(systems, test.resolution))
