@@ -17,6 +17,7 @@ from elastogeo.observe import (
     Circle,
     LoadedBallBar,
     MachineTest,
+    Positioning,
     Question,
     Run,
     Setup,
@@ -109,6 +110,13 @@ def dial_gauge(arrangement: Arrangement) -> Setup:
     return instrument_named("dial-gauge")((0.3, -0.2, -1.0), arrangement.centre)
 
 
+def positioning(arrangement: Arrangement) -> Setup:
+    """A linear axis read in a skew direction, as no sensor is set up: so that every component counts."""
+    axis = next(axis for axis in parse_topology(arrangement.topology).axes if axis in "XYZ")
+    tool = (40.0, -30.0, 20.0) if arrangement.offsets is None else None
+    return Positioning(axis, arrangement.centre, (1.0, -0.6, 0.3), in_workpiece=arrangement.in_workpiece, tool=tool)
+
+
 def ball_roller(arrangement: Arrangement) -> Setup:
     """With true balances of its drives, so that it can be simulated and each run observed by itself."""
     plane = str(arrangement.plane)
@@ -140,6 +148,7 @@ SETUPS: dict[str, Callable[[Arrangement], Setup]] = {
     "ball-roller": ball_roller,
     "dial-gauge": dial_gauge,
     "loaded-ball-bar": loaded_ball_bar,
+    "positioning": positioning,
     "displacement-probes": displacement_probes,
     "sensor-frame": sensor_frame,
     "static-force": static_force,
@@ -199,6 +208,9 @@ class Case:
 
 def blank(setup: Setup, pose: Array, force: float) -> dict[str, Array]:
     """Columns of a run to simulate: zeros, at these poses, under a force that turns if it is recorded by components."""
+    if "target" in setup.quantities:
+        target, sense = 400 * np.cos(pose), np.where(pose < np.pi, -1.0, 1.0)
+        return {"target": target, "direction": sense, "deviation": np.zeros(len(pose)), "angle": pose}
     columns = {quantity: np.zeros(len(pose)) for quantity in setup.quantities if quantity != "force"}
     if "force_x" in columns:
         columns |= {

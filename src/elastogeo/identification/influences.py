@@ -142,7 +142,7 @@ def bar_length(known: KnownInfluence, _: MachineTest, systems: Systems) -> Itera
 @effect("sensor-scale")
 def sensor_scale(known: KnownInfluence, _: MachineTest, systems: Systems) -> Iterator[Effect]:
     """The sensor reads a relative amount too much."""
-    yield _reading_effect(_influence(known, known.relative, "relative"), systems, lambda run: run.reading)
+    yield _reading_effect(_influence(known, known.relative, "relative"), systems, _measured)
 
 
 @effect("ball-form")
@@ -172,6 +172,12 @@ def thermal_drift(known: KnownInfluence, _: MachineTest, systems: Systems) -> It
         systems,
         lambda run: (starts[run.name] + np.arange(len(run.rows))) / total - 0.5,
     )
+
+
+def _measured(run: RunSystem) -> Array:
+    """All that the sensor measured: what it would on a perfect machine, and the departure from it."""
+    nominal = run.observations.nominal
+    return run.reading if nominal is None else run.reading + run.without_own(nominal[:, np.newaxis])[:, 0]
 
 
 def _harmonic(order: int, wave: Callable[[Array], Array], run: RunSystem) -> Array:

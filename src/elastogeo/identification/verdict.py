@@ -68,7 +68,7 @@ def geometry_modelled(sources: Sequence[Source], reference: bool, around: bool) 
 
 def is_set_up(source: Source) -> bool:
     """Whether a source is of the set-up rather than of the machine."""
-    return source.site[0] in ("tool", "workpiece") or source.name == "E_R0"
+    return source.site[0] in ("tool", "workpiece", "reading")
 
 
 def influences_stated(labels: Sequence[str], reference: bool) -> Check:

@@ -10,6 +10,7 @@ from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
 from elastogeo.observe.measurement import KnownInfluence, MachineTest, Question
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
+from elastogeo.observe.positioning import Approaches, Positioning, approaches
 from elastogeo.observe.rollers.ball_roller import BallRoller, Pressed
 from elastogeo.observe.rollers.rig import Rig
 from elastogeo.observe.run import Run
@@ -24,6 +25,7 @@ __all__ = [
     "PLANES",
     "THESIS_CALIBRATION",
     "About",
+    "Approaches",
     "BallBar",
     "BallRoller",
     "Calibration",
@@ -36,6 +38,7 @@ __all__ = [
     "MachineTest",
     "Observations",
     "ObservedInfluence",
+    "Positioning",
     "Pressed",
     "Question",
     "Residue",
@@ -49,6 +52,7 @@ __all__ = [
     "SetupFact",
     "StaticForce",
     "Template",
+    "approaches",
     "check_observations",
     "check_runs",
     "check_sees_twist",

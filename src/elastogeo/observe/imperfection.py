@@ -46,6 +46,8 @@ class Imperfection:
     residue : tuple of Residue
     current_noise : float [A]
         Standard deviation of white Gaussian noise of a motor's current.
+    angle_noise : float [rad]
+        Standard deviation of white Gaussian noise of an angular sensor.
     """
 
     noise: Length = 0.0
@@ -54,6 +56,7 @@ class Imperfection:
     force_scatter: float = 0.0
     residue: tuple[Residue, ...] = ()
     current_noise: Current = 0.0
+    angle_noise: Angle = 0.0
 
     def force_factor(self, random: np.random.Generator) -> float:
         """By what factor the force of a run is off its level."""
@@ -71,6 +74,10 @@ class Imperfection:
     def noisy(self, position: Array, random: np.random.Generator) -> Array:
         """A position, shape (m,) [mm], as an encoder with this noise and resolution gives it."""
         return self._resolved(position + self.noise * random.standard_normal(len(position)))
+
+    def angular(self, angle: Array, random: np.random.Generator) -> Array:
+        """An angle, shape (m,) [rad], as an angular sensor with this noise gives it."""
+        return np.asarray(angle + self.angle_noise * random.standard_normal(len(angle)))
 
     def _resolved(self, seen: Array) -> Array:
         return np.asarray(np.round(seen / self.resolution) * self.resolution if self.resolution else seen)

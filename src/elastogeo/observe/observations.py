@@ -16,6 +16,9 @@ from elastogeo.errors import InputError
 from elastogeo.estimate import RANK_TOLERANCE
 from elastogeo.machine import Array
 
+Rows = np.ndarray[tuple[int], np.dtype[np.intp]]
+"""Numbers of readings, shape (k,)."""
+
 
 @dataclass(frozen=True, slots=True)
 class ObservedInfluence:
@@ -45,8 +48,8 @@ class ObservedInfluence:
     reading: Array
     force: float = 0.0
 
-    def rows(self, part: slice) -> ObservedInfluence:
-        """The same influence on a block of the readings."""
+    def rows(self, part: slice | Rows) -> ObservedInfluence:
+        """The same influence on some of the readings."""
         return replace(self, wrench=self.wrench[part], reading=self.reading[part])
 
 
@@ -80,8 +83,9 @@ class Observations:
         What the set-up adds to the recorded reading and was taken off.
     tool : array, shape (3,) [mm]
         Functional point in the frame of the last tool-branch carriage.
-    workpiece : array, shape (3,) [mm]
-        The point measured against, in the frame of the last workpiece-branch carriage.
+    workpiece : array, shape (3,) or (m, 3) [mm]
+        The point measured against, in the frame of the last workpiece-branch carriage; one for each reading where the
+        instrument measures against a line or a face rather than a point.
     length : float [mm]
         Nominal distance of the two points if the instrument reads its change; infinite if it reads the displacement along
         a fixed direction.
@@ -90,6 +94,11 @@ class Observations:
         them: rounding, or what the noise of a measured force makes of it.
     influences : tuple of ObservedInfluence
         What is uncertain in wrench and reading together, and alike in all runs.
+    sense : array, shape (m, n), or None
+        Way in which each axis moved last, +1 or -1, 0 if it did not, where the readings are taken at standstill; None where
+        the velocity says it.
+    nominal : array, shape (m,) [mm or rad], or None
+        What the instrument measures on a perfect machine, where the reading is the departure from it; None for nothing.
     """
 
     run: str
@@ -108,6 +117,8 @@ class Observations:
     length: float = float("inf")
     collinear: float = RANK_TOLERANCE
     influences: tuple[ObservedInfluence, ...] = ()
+    sense: Array | None = None
+    nominal: Array | None = None
 
     def __len__(self) -> int:
         """How many readings."""
@@ -119,7 +130,10 @@ class Observations:
 
     def rows(self, first: int, last: int) -> Observations:
         """A block of the readings."""
-        part = slice(first, last)
+        return self.at(slice(first, last))
+
+    def at(self, part: slice | Rows) -> Observations:
+        """Some of the readings: a block, or by their numbers, shape (k,)."""
         return replace(
             self,
             pose=self.pose[part],
@@ -130,7 +144,10 @@ class Observations:
             wrench=self.wrench[part],
             reading=self.reading[part],
             correction=self.correction[part],
+            workpiece=self.workpiece if self.workpiece.ndim == 1 else self.workpiece[part],
             influences=tuple(influence.rows(part) for influence in self.influences),
+            sense=None if self.sense is None else self.sense[part],
+            nominal=None if self.nominal is None else self.nominal[part],
         )
 
 

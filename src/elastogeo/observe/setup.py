@@ -92,6 +92,11 @@ class Setup(ABC):
         return tuple(self.observe(machine, run) for run in runs)
 
     @property
+    def file_units(self) -> Mapping[str, str]:
+        """Units of columns in a run file, where the name of the column does not say its dimension; empty for a number."""
+        return {}
+
+    @property
     def nominal_radius(self) -> float | None:
         """Radius [mm] of the circle that the test was to make; None if it was to make none."""
         return None

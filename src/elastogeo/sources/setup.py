@@ -6,10 +6,12 @@ confounding report says so, and only a calibrated bar can tell them apart.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
-from elastogeo.machine import COMPONENTS, Machine, Site
-from elastogeo.sources.families import family
+from elastogeo.machine import COMPONENTS, ROTARY, Machine, Site
+from elastogeo.sources.error_motion import CommandPower
+from elastogeo.sources.families import family, named
 from elastogeo.sources.location import constant
 from elastogeo.sources.source import Source
 
@@ -17,6 +19,7 @@ _POINTS: tuple[tuple[str, Site, str], ...] = (
     ("t", ("tool", ""), "tool"),
     ("w", ("workpiece", ""), "workpiece ball"),
 )
+_SLOPE = re.compile(r"E_R([XYZUVWABC])1")
 
 
 @family
@@ -33,3 +36,14 @@ def setup_offsets(_: Machine) -> Iterator[Source]:
                 meaning=f"offset of the {name} in {COMPONENTS[d].lower()}",
             )
     yield Source("E_R0", "mm", ("reading", ""), 0, constant, "bar longer than nominal, or zero of the sensor")
+
+
+@named
+def slope_of_the_reference(machine: Machine, name: str) -> Source | None:
+    """`E_RX1`: what a straight line that straightness of X is measured against lacks in alignment; never listed."""
+    match = _SLOPE.fullmatch(name)
+    if not match or match[1] not in machine.axes:
+        return None
+    axis = match[1]
+    unit = f"mm/{'rad' if axis in ROTARY else 'mm'}"
+    return Source(name, unit, ("reading", ""), 0, CommandPower(axis, 1), f"slope of the reference along {axis}")

@@ -62,7 +62,12 @@ class Situation:
         return np.asarray(self.observations.velocity[:, self.machine.index(axis)])
 
     def sense(self, axis: str) -> Array:
-        """Sign of the velocity of an axis, shape (m,): 0 where it stands, or turns back at this very reading."""
+        """Sign of the velocity of an axis, shape (m,): 0 where it stands, or turns back at this very reading.
+
+        Of readings at standstill, the way in which the axis moved last.
+        """
+        if self.observations.sense is not None:
+            return np.asarray(self.observations.sense[:, self.machine.index(axis)])
         velocity = self.velocity(axis)
         return np.where(np.abs(velocity) > STANDING * np.abs(velocity).max(), np.sign(velocity), 0.0)
 

@@ -22,6 +22,7 @@ from elastogeo.formats.text.by_content import claiming
 from elastogeo.formats.text.fingerprint import sha256_of
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
+from elastogeo.formats.text.units import UNITS
 from elastogeo.machine import Force, Length, Pressure, Time
 from elastogeo.observe import About, KnownInfluence, MachineTest, Question, Run, check_runs, instrument_named, turning
 
@@ -127,14 +128,18 @@ def read_test(
     """
     file, document = read_test_document(Path(path))
     read = full_turn(planned) if planned and read is None else read
-    runs = tuple(_run(entry, _table(document, entry, file.parent, read), file.parent) for entry in document.runs)
+    tables = [_table(document, entry, file.parent, read) for entry in document.runs]
+    runs = tuple(_run(entry, table, file.parent) for entry, table in zip(document.runs, tables, strict=True))
     if read is None:
         _check(runs, file)
     entries = with_calibration({**document.setup, **(setup or {})}, file.parent)
+    found = build(instrument_named(document.instrument), entries, f"{file}, setup")
+    for table in tables:
+        _check_units(table, found.file_units)
     return MachineTest(
         name=document.name,
         machine=find_machine(document.machine, file.parent),
-        setup=build(instrument_named(document.instrument), entries, f"{file}, setup"),
+        setup=found,
         runs=runs,
         question=document.question,
         resolution=document.resolution,
@@ -223,6 +228,17 @@ def _check(runs: tuple[Run, ...], file: Path) -> None:
         check_runs(runs)
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
+
+
+def _check_units(table: Table, usual: Mapping[str, str]) -> None:
+    """Refuse a column in a unit of another dimension than the instrument reads: degrees of a linear axis."""
+    for quantity, unit in table.units.items():
+        wanted = usual.get(quantity, unit)
+        if unit != wanted and (unit not in UNITS or wanted not in UNITS or UNITS[unit].dimension != UNITS[wanted].dimension):
+            raise FormatError(
+                f"{table.source}: column {quantity!r} has {f'the unit {unit}' if unit else 'no unit'}; with the set-up of "
+                f"this test write {quantity}{f'_{wanted}' if wanted else ' without a unit'}"
+            )
 
 
 def _run(document: RunDocument, table: Table, folder: Path) -> Run:

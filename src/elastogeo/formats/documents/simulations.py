@@ -118,7 +118,10 @@ def write_runs(path: Path, test: MachineTest, seed: int) -> tuple[Path, ...]:
     there = [target for target in targets if target.exists()]
     if there:
         raise FormatError(f"{there[0]} is there already, and {len(there) - 1} more; a recorded run is never overwritten")
-    contents = [_content(run, _format_of(target), seed) for run, target in zip(test.runs, targets, strict=True)]
+    contents = [
+        _content(run, _format_of(target), seed, test.setup.file_units)
+        for run, target in zip(test.runs, targets, strict=True)
+    ]
     return write_whole(dict(zip(targets, contents, strict=True)))
 
 
@@ -129,11 +132,13 @@ def _format_of(target: Path) -> RunFormat:
     raise FormatError(f"{target}: no format that elastogeo writes ends in {target.suffix!r}; name it .csv or .parquet")
 
 
-def _content(run: Run, run_format: RunFormat, seed: int) -> bytes:
+def _content(run: Run, run_format: RunFormat, seed: int, units: Mapping[str, str]) -> bytes:
     columns = {}
     for quantity, values in run.columns.items():
-        unit = "mm" if quantity.startswith("position") else _FILE_UNIT[dimensions_of(quantity)[0]]
-        columns[f"{quantity}_{unit}"] = np.round(from_internal(values, unit), _DIGITS)
+        unit = units.get(quantity)
+        if unit is None:
+            unit = "mm" if quantity.startswith("position") else _FILE_UNIT[dimensions_of(quantity)[0]]
+        columns["_".join(filter(None, [quantity, unit]))] = np.round(from_internal(values, unit), _DIGITS)
     if run_format.write is None:
         raise FormatError(f"the format {run_format.name} cannot be written; name the run file .csv or .parquet")
     return run_format.write(columns, {"simulated": f"elastogeo, seed {seed}", "run": run.name})

@@ -74,7 +74,8 @@ def _read(data: bytes, source: str, wanted: Mapping[str, str] | None) -> Table:
         arrays[column.quantity] = column.internal(values)
     if bad:
         raise problems_error(source, problems, bad, "cells will not do (nothing was read)")
-    return Table(arrays, {k: v for k, v in metadata.items() if k != "pandas"}, source)
+    units = {column.quantity: column.unit for column in columns}
+    return Table(arrays, {k: v for k, v in metadata.items() if k != "pandas"}, source, units)
 
 
 def write_parquet(columns: Mapping[str, ArrayLike], metadata: Mapping[str, str]) -> bytes:

@@ -17,6 +17,11 @@ from elastogeo.formats.text.table import SHOWN, Column, Table, problems_error
 from elastogeo.machine import Array
 
 _NOT_FINITE = ("nan", "inf", "infinity", "-nan", "-inf", "-infinity", "+nan", "+inf", "+infinity")
+_SIDES = {
+    **dict.fromkeys(("+", "↑", "up", "pos", "positive", "forward", "fwd"), 1.0),
+    **dict.fromkeys(("-", "−", "↓", "down", "neg", "negative", "backward", "reverse", "rev"), -1.0),
+}
+"""How a column `direction` says from which side an axis comes to a target (ISO 230-2)."""
 _THOUSANDS = re.compile(r"[-+]?\d{1,3}([ .,'\u00a0\u202f_]\d{3})+([.,]\d*)?", re.ASCII)
 
 
@@ -63,18 +68,26 @@ class Readings:
         refused: set[int] = set()
         for column, found in zip(self.columns, block.columns, strict=True):
             if isinstance(found, list) and column is not None:
-                values = [number_of(cell, self.decimal) for cell in found]
+                values = [self._value(cell, column) for cell in found]
                 refused |= {row for row, value in enumerate(values) if value is None}
                 columns.append(np.array([math.nan if value is None else value for value in values]))
             else:
                 columns.append(np.empty(0) if isinstance(found, list) else found)
         return columns, sorted(refused)
 
+    def _value(self, cell: str, column: Column) -> float | None:
+        """The number of a cell; +1 or -1 of one that says a direction; None of any other."""
+        if column.quantity == "direction" and cell.lower() in _SIDES:
+            return _SIDES[cell.lower()]
+        return number_of(cell, self.decimal)
+
     def _why(self, block: Block, row: int) -> str:
         """What is wrong with a row of a block."""
         for column, found in zip(self.columns, block.columns, strict=True):
-            reason = self._reason(found[row]) if isinstance(found, list) and column is not None else ""
-            if column is not None and reason:
+            if column is None or not isinstance(found, list):
+                continue
+            reason = self._reason(found[row], column)
+            if reason:
                 return f"column {column.header}: {reason}"
         raise AssertionError(row)
 
@@ -91,8 +104,10 @@ class Readings:
             return f"{text}; if its commas are decimal marks, separate the columns by semicolons"
         return f"{text}; complete the line or take it out"
 
-    def _reason(self, cell: str) -> str:
+    def _reason(self, cell: str, column: Column) -> str:
         """Why a cell is not taken; empty if it is."""
+        if column.quantity == "direction" and cell.lower() in _SIDES:
+            return ""
         if not cell:
             return "the cell is empty; fill it in or take the whole line out"
         if cell.lower() in _NOT_FINITE:
@@ -136,12 +151,13 @@ class Readings:
                     f"{source}: its line 'rows' promises {promised} complete lines of readings, {self.rows} arrived"
                     f"{'' if ended else ' and the last has no end'}; copy it again, or correct the line if it was edited"
                 )
-        columns = {}
+        columns, units = {}, {}
         for column, blocks in zip(self.columns, self.blocks, strict=True):
             if column is not None:
+                units[column.quantity] = column.unit
                 columns[column.quantity] = np.concatenate(blocks)
                 blocks.clear()
-        return Table(columns, metadata, source)
+        return Table(columns, metadata, source, units)
 
 
 def _clip(text: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
 import numpy as np
@@ -29,6 +29,8 @@ class Table:
         What the file says besides its readings (machine, date, operator).
     source : str
         Where the readings came from, for error messages.
+    units : mapping of str to str
+        Units that the columns had in the file, if it is known; empty for a number.
 
     Raises
     ------
@@ -39,6 +41,7 @@ class Table:
     columns: Mapping[str, Array]
     metadata: Mapping[str, str]
     source: str
+    units: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         columns: dict[str, Array] = {}

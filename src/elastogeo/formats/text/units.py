@@ -131,7 +131,7 @@ _VELOCITY = ("feed", "angular rate")
 QUANTITIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         **dict.fromkeys(("radial", "radius", "length", "displacement", "x", "y", "z"), ("length",)),
-        **dict.fromkeys(("position", "command", "scale", "reading", "deviation", "error"), _POSITION),
+        **dict.fromkeys(("position", "command", "scale", "reading", "deviation", "error", "target"), _POSITION),
         **dict.fromkeys(("angle", "a", "b", "c"), ("angle",)),
         "velocity": _VELOCITY,
         "acceleration": ("acceleration", "angular acceleration"),

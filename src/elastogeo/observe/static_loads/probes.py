@@ -15,6 +15,7 @@ import numpy as np
 from elastogeo.errors import InputError
 from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Motion, Point, follow, loop_frames
 from elastogeo.observe.circle import Direction
+from elastogeo.observe.directions import unit_vector, unit_vectors
 from elastogeo.observe.force import Calibration, force_influences, force_of_run
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
@@ -29,8 +30,6 @@ from elastogeo.observe.static_loads.load import (
     force_vectors,
     read_by,
     recorded,
-    unit_vector,
-    unit_vectors,
     with_lever,
 )
 from elastogeo.observe.template import FORCE, Template

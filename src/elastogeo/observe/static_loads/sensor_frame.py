@@ -17,6 +17,7 @@ import numpy as np
 from elastogeo.errors import InputError
 from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
 from elastogeo.observe.circle import Direction
+from elastogeo.observe.directions import unit_vector
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, check_observations
@@ -33,7 +34,6 @@ from elastogeo.observe.static_loads.load import (
     read_by,
     recorded,
     static_commands,
-    unit_vector,
     with_lever,
 )
 from elastogeo.observe.template import FORCE, Template

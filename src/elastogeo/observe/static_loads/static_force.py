@@ -15,6 +15,7 @@ import numpy as np
 
 from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
 from elastogeo.observe.circle import Direction
+from elastogeo.observe.directions import unit_vector
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, check_observations
@@ -31,7 +32,6 @@ from elastogeo.observe.static_loads.load import (
     planned,
     recorded,
     static_commands,
-    unit_vector,
     with_lever,
 )
 from elastogeo.observe.template import FORCE, Template
