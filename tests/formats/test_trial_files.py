@@ -1,6 +1,7 @@
 """A test on disk: simulated, written, read back, identified; and what is refused."""
 
 import hashlib
+import re
 import shutil
 import subprocess
 import sys
@@ -19,6 +20,7 @@ from elastogeo.formats import (
     write_runs,
 )
 from elastogeo.formats.documents.machine_tests import read_test_document
+from elastogeo.identification import identify
 from elastogeo.sources import simulate
 
 
@@ -107,6 +109,30 @@ def test_a_wrong_sense_is_refused(folder):
     )
     with pytest.raises(FormatError, match="sense is 'left'; write ccw"):
         read_test_document(folder)
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+def test_simulated_runs_say_their_truth(folder, suffix):
+    """Every digit of it."""
+    file = folder / "test.toml"
+    file.write_text(file.read_text().replace(".csv", suffix))
+    truth = read_simulation(folder / "simulation.toml")
+    values = {**truth.values, "E_C(0Y)X": 1e-5 / 3, "E_XX1": 0.0}
+    test = simulate(read_test(folder, poses_of(truth)), values)
+    write_runs(folder, test, truth.seed)
+    assert test.truth == values
+    back = read_test(folder)
+    assert back.truth == values
+    assert identify(back)["C_XXX"].truth == values["C_XXX"]
+
+
+@pytest.mark.parametrize("text", ["C_XXX", "C_XXX=soft", "=1e-5", "C_XXX=nan", "C_XXX=1e-5 C_XXX=2e-5"])
+def test_a_truth_that_is_none_is_refused(folder, text):
+    test, truth = simulated(folder)
+    for path in write_runs(folder, test, truth.seed):
+        path.write_text(re.sub("truth: .*", f"truth: {text}", path.read_text()))
+    with pytest.raises(FormatError, match=r"36N-1.csv: the truth of this simulated run is .* not a list of name=value"):
+        read_test(folder)
 
 
 def test_a_missing_run_file_is_refused_with_its_path(folder):

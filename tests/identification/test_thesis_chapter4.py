@@ -137,6 +137,7 @@ def test_every_retained_term_stands_for_the_sum_of_its_group(section_4_5: Identi
         (group,) = (group for group in GROUPS if parameter.name in group)
         assert parameter.stands_for == pytest.approx(dict.fromkeys(group, 1.0))
         assert parameter.value == pytest.approx(sum(TABLE_4_2[name] for name in group), rel=1e-9)
+        assert parameter.truth == pytest.approx(float(TABLE_4_5[parameter.name]), rel=1e-9)
 
 
 def test_the_patterns_are_those_of_table_4_4(section_4_5: Identification) -> None:

@@ -18,7 +18,7 @@ from elastogeo.identification.faults.diagnosis import Diagnosis, Fault, diagnose
 from elastogeo.identification.faults.what_if import WhatIf, what_if
 from elastogeo.identification.feed_drives.axis_drives import identify_drives
 from elastogeo.identification.feed_drives.result import AxisDrive, DriveIdentification
-from elastogeo.identification.fit import Harmonic, fitness, rmse, strongest_harmonic
+from elastogeo.identification.fit import Fit, Harmonic, fitness, rmse, strongest_harmonic
 from elastogeo.identification.identification import consistency_of, identify
 from elastogeo.identification.influences import Effect, effect, effects
 from elastogeo.identification.levels import ForceLevels, ForceSpread, force_levels
@@ -37,7 +37,7 @@ from elastogeo.identification.question import (
     with_question,
 )
 from elastogeo.identification.reciprocity import Reciprocity, reciprocal_sources, reciprocity
-from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Trace
+from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Response, Trace
 from elastogeo.identification.rollers.laws import LawChoice, LawScore
 from elastogeo.identification.rollers.result import Stiffness, StiffnessMap
 from elastogeo.identification.rollers.stiffness_map import map_stiffness
@@ -62,6 +62,7 @@ from elastogeo.identification.static_tests.loading_branches import Branch, branc
 from elastogeo.identification.static_tests.result import Cartesian, LoadedPlace, LoadedRun, LoadStep, StaticResults, TwistRun
 from elastogeo.identification.static_tests.straight_line import StaticLine, static_line
 from elastogeo.identification.systems import RunSystem, Systems, merged, noise_of, run_systems
+from elastogeo.identification.variable_compliance import VariableCompliance, gain_of
 from elastogeo.identification.verdict import CONDITION_LIMIT
 
 __all__ = [
@@ -93,6 +94,7 @@ __all__ = [
     "Effect",
     "Explanation",
     "Fault",
+    "Fit",
     "ForceCalibration",
     "ForceLevels",
     "ForceSpread",
@@ -114,6 +116,7 @@ __all__ = [
     "Pattern",
     "Principal",
     "Reciprocity",
+    "Response",
     "RunSystem",
     "SetupDeflection",
     "StaticHysteresis",
@@ -125,6 +128,7 @@ __all__ = [
     "Systems",
     "Trace",
     "TwistRun",
+    "VariableCompliance",
     "WhatIf",
     "adjacent",
     "agreement",
@@ -150,6 +154,7 @@ __all__ = [
     "explain",
     "fitness",
     "force_levels",
+    "gain_of",
     "hysteresis",
     "identify",
     "identify_drives",

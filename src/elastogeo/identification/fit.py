@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,22 @@ HARMONICS = range(1, 13)
 
 FALSE_ALARM = 0.01
 """Rate at which residuals without structure may be taken to have one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """How well a model fits some readings.
+
+    Attributes
+    ----------
+    rmse : float [mm]
+        Eq. 5.40.
+    fitness : float or None [%]
+        Eq. 5.41; None if nothing was measured to vary.
+    """
+
+    rmse: float
+    fitness: float | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +61,12 @@ def fitness(predicted: Array, measured: Array) -> float | None:
     """Fitness [%]: `100 (1 - RMSE / (max - min of the measured))` (Eq. 5.41); None if nothing was measured to vary."""
     span = float(np.ptp(measured))
     return 100.0 * (1.0 - rmse(predicted, measured) / span) if span > 0 else None
+
+
+def fit_of(pairs: Sequence[tuple[Array, Array]]) -> Fit:
+    """The fit of one or more (predicted, measured) traces together."""
+    predicted, measured = (np.concatenate(values) for values in zip(*pairs, strict=True))
+    return Fit(rmse(predicted, measured), fitness(predicted, measured))
 
 
 def strongest_harmonic(residual: Array, angle: Array, looks: int = 1) -> Harmonic:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Unpack
 
@@ -20,7 +20,7 @@ from elastogeo.estimate import (
 )
 from elastogeo.identification.budget import Budget, agreement, uncertainty_budget
 from elastogeo.identification.check import Check
-from elastogeo.identification.fit import fitness, rmse, strongest_harmonic
+from elastogeo.identification.fit import Fit, fit_of, rmse, strongest_harmonic
 from elastogeo.identification.influences import Effect
 from elastogeo.identification.local import adjacent_estimates, change_between_levels, of_repeats
 from elastogeo.identification.model_choice.choice import compare_models
@@ -39,11 +39,12 @@ from elastogeo.identification.question import (
     systems_of,
     with_question,
 )
-from elastogeo.identification.result import Identification, Level, Parameter, Pattern, Trace
+from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Response, Trace
 from elastogeo.identification.robust import downweighted
 from elastogeo.identification.rounding import ROUNDING
 from elastogeo.identification.shared_structure import shared_harmonic
 from elastogeo.identification.systems import RunSystem, Systems, merged, noise_of
+from elastogeo.identification.variable_compliance import VariableCompliance, variable_compliance
 from elastogeo.identification.verdict import (
     above_resolution,
     conditioned,
@@ -63,6 +64,9 @@ from elastogeo.identification.verdict import (
 )
 from elastogeo.observe import MachineTest, Observations
 from elastogeo.sources import Source
+
+POSES_DRAWN = 181
+"""Poses of a run at which its response is kept to be drawn."""
 
 LEVELS_FOR_MODELS = 2
 """How many force levels it takes for a comparison of models to have anything to say, if only that they are too few."""
@@ -124,10 +128,11 @@ def _identified(test: MachineTest, systems: Systems, found: Confounding, known: 
     solution = _by_run(systems, found) or naive
     budget = uncertainty_budget(systems, solution, known)
     traces = tuple(_trace(run, solution) for run in systems.runs)
+    local, variable = adjacent_estimates(systems, found.retained), variable_compliance(systems, found.retained)
     return Identification(
         test=test,
         reference_force=test.question.reference_force,
-        parameters=_parameters(systems, found, solution, budget if solution is not naive else None),
+        parameters=_parameters(systems, found, solution, budget if solution is not naive else None, test.truth),
         confounding=found,
         solution=solution,
         naive=naive,
@@ -136,10 +141,12 @@ def _identified(test: MachineTest, systems: Systems, found: Confounding, known: 
         local_change=change_between_levels(systems, found.retained),
         minimum_norm=dict(zip(found.labels, map(float, minimum_norm(merged(systems.runs))), strict=True)),
         traces=traces,
-        levels=tuple(_level(force, systems, traces, solution) for force in systems.levels),
-        local=adjacent_estimates(systems, found.retained),
+        levels=_levels(systems, traces, solution, local, variable),
+        local=local,
         repeats=of_repeats(systems, found.retained),
         patterns=_patterns(systems, found),
+        responses=_responses(test, systems, solution),
+        variable=variable,
         set_up={run.name: _set_up(run, systems.own, solution) for run in systems.runs if systems.own},
         rmse=rmse(np.concatenate([t.predicted for t in traces]), np.concatenate([t.measured for t in traces])),
         verdict=(),
@@ -262,21 +269,56 @@ def _trace(run: RunSystem, solution: Solution) -> Trace:
     return Trace(run.name, run.force, run.observations.pose, run.reading, run.design_of(solution.labels) @ solution.values)
 
 
-def _level(force: float, systems: Systems, traces: Sequence[Trace], solution: Solution) -> Level:
-    chosen = [trace for trace in traces if trace.force == force]
-    measured = np.concatenate([trace.measured for trace in chosen])
-    predicted = np.concatenate([trace.predicted for trace in chosen])
-    run = systems.at(force)[0]
+def _levels(
+    systems: Systems,
+    traces: Sequence[Trace],
+    solution: Solution,
+    local: Sequence[Local],
+    variable: VariableCompliance | None,
+) -> tuple[Level, ...]:
+    fits = variable.levels if variable else (None,) * len(systems.levels)
+    return tuple(
+        _level(force, systems, traces, solution, fit, [one.solution for one in local if force in one.forces])
+        for force, fit in zip(systems.levels, fits, strict=True)
+    )
+
+
+def _level(
+    force: float,
+    systems: Systems,
+    traces: Sequence[Trace],
+    solution: Solution,
+    variable: Fit | None,
+    local: Sequence[Solution],
+) -> Level:
+    chosen = [(trace.predicted, trace.measured) for trace in traces if trace.force == force]
+    runs, fit = systems.at(force), fit_of(chosen)
+    around = [(run.design_of(one.labels) @ one.values, run.reading) for one in local for run in runs]
     by_name = {source.name: source for source in systems.sources}
     machine_parts = [by_name[label] for label in solution.labels if by_name[label].site[1]]
     return Level(
         force=force,
-        readings=len(measured),
-        rmse=rmse(predicted, measured),
-        fitness=fitness(predicted, measured),
-        elastic=_span_of(run, solution, [source for source in machine_parts if source.elastic]),
-        geometric=_span_of(run, solution, [source for source in machine_parts if not source.elastic]),
+        readings=sum(len(measured) for _, measured in chosen),
+        rmse=fit.rmse,
+        fitness=fit.fitness,
+        elastic=_span_of(runs[0], solution, [source for source in machine_parts if source.elastic]),
+        geometric=_span_of(runs[0], solution, [source for source in machine_parts if not source.elastic]),
+        variable=variable,
+        local=fit_of(around) if around else None,
     )
+
+
+def _responses(test: MachineTest, systems: Systems, solution: Solution) -> tuple[Response, ...]:
+    """Of the first run of each level in each direction, at evenly chosen readings."""
+    senses = {run.name: run.sense for run in test.runs}
+    first: dict[tuple[float, int], RunSystem] = {}
+    for run in systems.runs:
+        first.setdefault((run.force, senses[run.name]), run)
+    found = []
+    for (force, _), run in sorted(first.items(), key=lambda item: item[0][0]):
+        chosen = np.unique(np.linspace(0, len(run.rows) - 1, POSES_DRAWN).round().astype(int))
+        found.append(Response(run.name, force, run.observations.pose[chosen], run.design_of(solution.labels)[chosen]))
+    return tuple(found)
 
 
 def _span_of(run: RunSystem, solution: Solution, sources: Sequence[Source]) -> tuple[float, float]:
@@ -287,8 +329,10 @@ def _span_of(run: RunSystem, solution: Solution, sources: Sequence[Source]) -> t
     return float(part.min()), float(part.max())
 
 
-def _parameters(systems: Systems, found: Confounding, solution: Solution, budget: Budget | None) -> tuple[Parameter, ...]:
-    """The parameters; without a budget, without uncertainty."""
+def _parameters(
+    systems: Systems, found: Confounding, solution: Solution, budget: Budget | None, truth: Mapping[str, float]
+) -> tuple[Parameter, ...]:
+    """The parameters; without a budget, without uncertainty; of readings that were measured, without a truth."""
     by_name = {source.name: source for source in systems.sources}
     ranges = systems.range_per_unit(solution.labels) * solution.values
     machine = [not is_set_up(by_name[name]) for name in solution.labels]
@@ -308,6 +352,7 @@ def _parameters(systems: Systems, found: Confounding, solution: Solution, budget
             elastic=by_name[name].elastic,
             sign=by_name[name].sign,
             separated=len({by_name[other].elastic for other in found.stands_for(name)}) == 1,
+            truth=sum(c * truth.get(other, 0.0) for other, c in found.stands_for(name).items()) if truth else None,
         )
         for k, name in enumerate(solution.labels)
     )

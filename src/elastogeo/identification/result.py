@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from elastogeo.equality import ByValue
 from elastogeo.errors import SelectionError
 from elastogeo.estimate import Confounding, Estimate, Repeatability, Solution
 from elastogeo.identification.budget import Agreement, Budget
 from elastogeo.identification.change import Change
 from elastogeo.identification.check import Check
+from elastogeo.identification.fit import Fit
 from elastogeo.identification.model_choice.result import ModelChoice
 from elastogeo.identification.physics import Consistency
+from elastogeo.identification.variable_compliance import VariableCompliance
 from elastogeo.machine import Array
 from elastogeo.observe import MachineTest
 from elastogeo.result import Part, Result
@@ -47,6 +50,8 @@ class Parameter(Part):
         Whether what it stands for is all elastic or all geometric. If not, no name is right: the test cannot tell.
     sign : Sign or None
         What the sign of its value means for the axis.
+    truth : float or None
+        Of simulated readings that say it: what `stands_for` truly amounts to, in `unit`.
     """
 
     name: str
@@ -62,6 +67,14 @@ class Parameter(Part):
     elastic: bool
     separated: bool
     sign: Sign | None = None
+    truth: float | None = None
+
+    @property
+    def holds_truth(self) -> bool | None:
+        """Whether the interval holds the truth; None without either."""
+        if self.truth is None or self.interval is None:
+            return None
+        return self.interval[0] <= self.truth <= self.interval[1]
 
     @property
     def expanded(self) -> float | None:
@@ -118,6 +131,10 @@ class Level:
         Eq. 5.41; None if nothing was measured to vary.
     elastic, geometric : tuple of 2 float [mm]
         Least and greatest predicted deviation that compliance, and that geometry without the set-up, cause (Figure 5.8).
+    variable : Fit or None
+        Of the model whose compliances change with the force (Table 5.9).
+    local : Fit or None
+        Of the local estimates that this level is part of, one or two: their predictions together.
     """
 
     force: float
@@ -126,6 +143,30 @@ class Level:
     fitness: float | None
     elastic: tuple[float, float]
     geometric: tuple[float, float]
+    variable: Fit | None = None
+    local: Fit | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Response(ByValue):
+    """What a unit of each retained parameter does to the readings of one run, at a few of its poses: for drawing.
+
+    `columns @ values` is the trace that values of the parameters predict.
+
+    Attributes
+    ----------
+    run : str
+    force : float [N]
+    pose : array, shape (k,)
+        As in `Trace`.
+    columns : array, shape (k, p)
+        In the order of the solution.
+    """
+
+    run: str
+    force: float
+    pose: Array
+    columns: Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,6 +236,10 @@ class Identification(Result):
     repeats : Repeatability or None
         From the levels that were repeated, if at least two were.
     patterns : tuple of Pattern
+    responses : tuple of Response
+        Of the first run of each force level in each direction.
+    variable : VariableCompliance or None
+        The model whose compliances change with the force, where the runs determine it.
     set_up : dict of str to dict of str to float [mm]
         Of each run its own set-up: where its circle really lies. Empty where it is one for all runs, or not in the model.
     rmse : float [mm]
@@ -229,6 +274,8 @@ class Identification(Result):
     agreement: Agreement | None = None
     models: ModelChoice | None = None
     consistency: Consistency | None = None
+    responses: tuple[Response, ...] = ()
+    variable: VariableCompliance | None = None
 
     def __getitem__(self, name: str) -> Parameter:
         """The parameter of this name.

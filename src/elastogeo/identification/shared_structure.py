@@ -75,6 +75,8 @@ def _scatter(left: Array, freedom: int) -> Array:
 
 def _left(seen: Array, designs: Array, scatter: Array) -> Array:
     """What the parameters leave of the coefficients, shape (runs, coefficients), each in units of its scatter."""
+    if not seen.any():
+        return seen
     scatter = np.maximum(scatter, _ROUNDING * np.abs(seen).max())
     rows, readings = designs / scatter[:, np.newaxis], seen / scatter
     rows = rows.reshape(-1, rows.shape[-1])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import inf
 
@@ -131,6 +132,12 @@ class MachineTest(ByValue):
     def instrument(self) -> str:
         """The name under which test files know the instrument."""
         return instrument_of(self.setup)
+
+    @property
+    def truth(self) -> Mapping[str, float]:
+        """True parameters by name, if the readings of all runs are simulated from the same; empty if not, or not known."""
+        first = self.runs[0].truth
+        return first if self.simulated and all(run.truth == first for run in self.runs) else {}
 
     def observations(self) -> tuple[Observations, ...]:
         """The observations of every run that holds readings, in order."""

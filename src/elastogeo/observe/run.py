@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from elastogeo.equality import ByValue
 from elastogeo.machine import Array, Force, Length, Pressure
@@ -36,6 +36,8 @@ class Run(ByValue):
         Of that file's bytes, in hexadecimal digits.
     simulated : str
         What the file says of the simulation that made it; empty if it was measured.
+    truth : mapping of str to float
+        True parameters by name, in their own units, of a simulated run that says them; all others are zero.
     """
 
     name: str
@@ -49,6 +51,7 @@ class Run(ByValue):
     file: str = ""
     sha256: str = ""
     simulated: str = ""
+    truth: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         readings = max((len(column) for column in self.columns.values()), default=0)

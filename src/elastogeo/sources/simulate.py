@@ -50,7 +50,7 @@ def simulate(
     Returns
     -------
     MachineTest
-        Marked as simulated.
+        Marked as simulated; its runs say their truth.
     """
     random = np.random.default_rng(seed)
     truth = parameter_values(test.machine, values)
@@ -60,5 +60,6 @@ def simulate(
         return response(truth, test.machine, observations)
 
     instrument = imperfection or Imperfection()
-    runs = tuple(test.setup.simulated(test.machine, run, respond, instrument, random) for run in test.runs)
+    made = (test.setup.simulated(test.machine, run, respond, instrument, random) for run in test.runs)
+    runs = tuple(replace(run, truth=dict(values)) for run in made)
     return replace(test, runs=runs, simulated=test.simulated or f"simulated with seed {seed}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import resources
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -262,7 +263,24 @@ def _run(document: RunDocument, table: Table, folder: Path) -> Run:
         file=document.file,
         sha256=_hash(folder, document.file),
         simulated=table.metadata.get("simulated", ""),
+        truth=_truth(table) if table.metadata.get("simulated") else {},
     )
+
+
+def _truth(table: Table) -> dict[str, float]:
+    """What a simulated run says of the parameters that it was made from."""
+    text = table.metadata.get("truth", "")
+    pairs = [entry.rpartition("=") for entry in text.split()]
+    try:
+        truth = {name: float(value) for name, _, value in pairs if name}
+    except ValueError:
+        truth = {}
+    if len(truth) != len(pairs) or not all(map(isfinite, truth.values())):
+        raise FormatError(
+            f"{table.source}: the truth of this simulated run is {text!r}, not a list of name=value; simulate it again, or "
+            f"delete that line"
+        )
+    return truth
 
 
 def _hash(folder: Path, name: str) -> str:

@@ -141,4 +141,10 @@ def _content(run: Run, run_format: RunFormat, seed: int, units: Mapping[str, str
         columns["_".join(filter(None, [quantity, unit]))] = np.round(from_internal(values, unit), _DIGITS)
     if run_format.write is None:
         raise FormatError(f"the format {run_format.name} cannot be written; name the run file .csv or .parquet")
-    return run_format.write(columns, {"simulated": f"elastogeo, seed {seed}", "run": run.name})
+    metadata = {"simulated": f"elastogeo, seed {seed}", "truth": truth_text(run.truth), "run": run.name}
+    return run_format.write(columns, {key: text for key, text in metadata.items() if text})
+
+
+def truth_text(truth: Mapping[str, float]) -> str:
+    """True parameters as a run file says them: `C_XXX=6.19e-05 E_XX1=-0.00013`, in their own units (mm, N, rad)."""
+    return " ".join(f"{name}={float(value)!r}" for name, value in truth.items())
