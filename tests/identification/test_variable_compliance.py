@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from elastogeo.identification import gain_of, identify, systems_of
-from elastogeo.identification.variable_compliance import variable_compliance
+from elastogeo.identification.model_choice.variable_compliance import variable_compliance
 from elastogeo.observe import Imperfection, Question
 from elastogeo.sources import linear_response, parameter_values, simulate
 

@@ -27,6 +27,7 @@ from elastogeo.identification.model_choice.candidates import COMPLIANCE, FORCE, 
 from elastogeo.identification.model_choice.choice import compare_models
 from elastogeo.identification.model_choice.following import OffLevel
 from elastogeo.identification.model_choice.result import Candidate, ModelChoice
+from elastogeo.identification.model_choice.variable_compliance import VariableCompliance, gain_of
 from elastogeo.identification.physics import PHYSICALLY_CONSISTENT, Consistency, consistency
 from elastogeo.identification.preference import moving_axes, retaining_order
 from elastogeo.identification.question import (
@@ -62,7 +63,6 @@ from elastogeo.identification.static_tests.loading_branches import Branch, branc
 from elastogeo.identification.static_tests.result import Cartesian, LoadedPlace, LoadedRun, LoadStep, StaticResults, TwistRun
 from elastogeo.identification.static_tests.straight_line import StaticLine, static_line
 from elastogeo.identification.systems import RunSystem, Systems, merged, noise_of, run_systems
-from elastogeo.identification.variable_compliance import VariableCompliance, gain_of
 from elastogeo.identification.verdict import CONDITION_LIMIT
 
 __all__ = [

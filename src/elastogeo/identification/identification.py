@@ -24,6 +24,7 @@ from elastogeo.identification.fit import Fit, fit_of, rmse, strongest_harmonic
 from elastogeo.identification.influences import Effect
 from elastogeo.identification.local import adjacent_estimates, change_between_levels, of_repeats
 from elastogeo.identification.model_choice.choice import compare_models
+from elastogeo.identification.model_choice.variable_compliance import VariableCompliance, variable_compliance
 from elastogeo.identification.physics import (
     NOT_TESTED,
     PHYSICALLY_CONSISTENT,
@@ -44,7 +45,6 @@ from elastogeo.identification.robust import downweighted
 from elastogeo.identification.rounding import ROUNDING
 from elastogeo.identification.shared_structure import shared_harmonic
 from elastogeo.identification.systems import RunSystem, Systems, merged, noise_of
-from elastogeo.identification.variable_compliance import VariableCompliance, variable_compliance
 from elastogeo.identification.verdict import (
     above_resolution,
     conditioned,

@@ -13,8 +13,8 @@ from elastogeo.identification.change import Change
 from elastogeo.identification.check import Check
 from elastogeo.identification.fit import Fit
 from elastogeo.identification.model_choice.result import ModelChoice
+from elastogeo.identification.model_choice.variable_compliance import VariableCompliance
 from elastogeo.identification.physics import Consistency
-from elastogeo.identification.variable_compliance import VariableCompliance
 from elastogeo.machine import Array
 from elastogeo.observe import MachineTest
 from elastogeo.result import Part, Result
