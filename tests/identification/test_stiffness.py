@@ -99,7 +99,12 @@ def test_the_joints_of_the_question_come_with_it(found: StiffnessMap) -> None:
 def test_the_rig_is_seen_where_it_gives_way(found: StiffnessMap) -> None:
     """Eq. 6.16: with the rig the compliance is that without it and the rig's own."""
     assert found.rig is not None
-    assert found.rig.agrees.mean() >= 0.85
+    assert found.rig.check.agrees.mean() >= 0.85
+    rig, angle = found.rig, found.rig.without.angle
+    assert_allclose(rig.predicted, true_compliance(angle) + RIG.along(angle), rtol=0.03)
+    assert (rig.softest, rig.engagements) == (0, pytest.approx((0.06, 0.13, 0.2)))
+    softened = [secant.force[0] < without.force[0] for secant, without in zip(rig.secants, found.secants, strict=True)]
+    assert softened == [True, True, True]
     check = next(check for check in found.verdict if check.name == "compliance with the rig as predicted")
     assert check.passed
 
@@ -109,7 +114,7 @@ def test_a_rig_of_another_compliance_does_not_agree() -> None:
     stated = replace(wrong, setup=replace(wrong.setup, rig=(replace(RIG, compliance=1.3 * RIG.compliance),)))
     found = map_stiffness(simulated(), stated)
     assert found.rig is not None
-    assert not found.rig.agrees[0]
+    assert not found.rig.check.agrees[0]
     check = next(check for check in found.verdict if check.name == "compliance with the rig as predicted")
     assert not check.passed
 
@@ -129,10 +134,14 @@ def test_a_dynamometer_is_compared_with_the_currents(gain: float, agrees: bool) 
         measured.append(replace(run, columns={**run.columns, **gauge}))
     found = map_stiffness(replace(test, runs=tuple(measured)))
     assert found.dynamometer is not None
-    assert_allclose(found.dynamometer.gain, gain, rtol=0.01)
-    assert found.dynamometer.gain_is_one == agrees
+    assert_allclose(found.dynamometer.agreement.gain, gain, rtol=0.01)
+    assert found.dynamometer.agreement.gain_is_one == agrees
+    assert len(found.dynamometer.forces) == 2 * 12
+    for compared in found.dynamometer.forces:
+        left = compared.current - gain * compared.dynamometer
+        assert np.sqrt(np.mean(left**2)) < 0.03 * np.abs(compared.current).max()
     check = next(check for check in found.verdict if check.name == "force agrees with the dynamometer")
-    assert check.passed == found.dynamometer.agrees
+    assert check.passed == found.dynamometer.agreement.agrees
 
 
 def test_a_dynamometer_that_measures_something_else_is_said() -> None:

@@ -11,7 +11,18 @@ from elastogeo.identification import StiffnessMap, map_stiffness
 from elastogeo.identification.rollers.curves import curves_of
 from elastogeo.identification.rollers.laws import choose_law
 from elastogeo.observe import MachineTest
-from studies.ball_roller import ENGAGEMENT, FORCE, MACHINE, make_roller_test, table_6_6
+from studies.ball_roller import (
+    COULOMB,
+    EFFICIENCY,
+    ENGAGEMENT,
+    FEED,
+    FORCE,
+    MACHINE,
+    RATIO,
+    VISCOUS,
+    make_roller_test,
+    table_6_6,
+)
 
 SPRING, SETUP = 7e-5, 1 / 15e3
 """Compliance of a constant machine and of the set-up [mm/N]."""
@@ -68,6 +79,28 @@ def test_it_is_said_that_no_law_holds_and_that_the_rise_is_an_offset(thesis: Sti
     assert (thesis.overall.interval[:, 0] <= 17e-3 / 247.7).mean() >= 0.9
     facts = next(check.facts for check in thesis.verdict if check.name == "secants free of an offset")
     assert facts["share"] == pytest.approx(0.6, abs=0.1), "18 of 30 um at the least engagement"
+
+
+def test_the_torque_of_a_motor_is_that_of_its_parts(thesis: StiffnessMap) -> None:
+    """Figure 6.5 by hand: at 1000 mm/min the friction that was put in, and the ball's force through the screw."""
+    assert [motor.axis for motor in thesis.torques] == ["X", "Y"]
+    for motor in thesis.torques:
+        assert (motor.engagement, motor.unit) == (pytest.approx(0.2), "N mm")
+        assert motor.run == "200um-1-1"
+        assert_allclose(motor.peak("coulomb"), COULOMB[motor.axis], rtol=0.01)
+        assert_allclose(motor.peak("viscous"), VISCOUS[motor.axis] * FEED / RATIO, rtol=0.02)
+        # the motor drives the roller against the ball, so the screw's losses are its own
+        assert_allclose(motor.peak("load"), FORCE[-1] * RATIO / EFFICIENCY, rtol=0.02)
+        noise = 0.03 * 1650
+        assert np.sqrt(np.mean(motor.residual[motor.counts] ** 2)) < 1.3 * noise
+        assert not motor.counts.all()
+        turn = motor.angle[motor.counts]
+        along = np.cos(turn) if motor.axis == "X" else np.sin(turn)
+        assert_allclose(np.corrcoef(motor.parts["load"][motor.counts], -along)[0, 1], 1.0, atol=0.01)
+
+
+def test_every_level_knows_the_engagement_that_was_commanded(thesis: StiffnessMap) -> None:
+    assert_allclose(thesis.engagements, ENGAGEMENT)
 
 
 @pytest.mark.parametrize(

@@ -39,9 +39,13 @@ from elastogeo.identification.question import (
 )
 from elastogeo.identification.reciprocity import Reciprocity, reciprocal_sources, reciprocity
 from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Response, Trace
+from elastogeo.identification.rollers.dynamometer import AgainstDynamometer, ComparedForce
 from elastogeo.identification.rollers.laws import LawChoice, LawScore
-from elastogeo.identification.rollers.result import Stiffness, StiffnessMap
+from elastogeo.identification.rollers.result import StiffnessMap
+from elastogeo.identification.rollers.rig_test import RigTest
+from elastogeo.identification.rollers.stiffness import Stiffness
 from elastogeo.identification.rollers.stiffness_map import map_stiffness
+from elastogeo.identification.rollers.torque_parts import TorqueParts
 from elastogeo.identification.shared_structure import shared_harmonic
 from elastogeo.identification.static_tests.assessment import evaluate_static
 from elastogeo.identification.static_tests.cartesian import (
@@ -74,6 +78,7 @@ __all__ = [
     "SCATTER",
     "SET_UP",
     "SIGNIFICANT",
+    "AgainstDynamometer",
     "Agreement",
     "AxisDrive",
     "BarCalibration",
@@ -87,6 +92,7 @@ __all__ = [
     "Change",
     "Check",
     "Circularity",
+    "ComparedForce",
     "Consistency",
     "Diagnosis",
     "Difference",
@@ -117,6 +123,7 @@ __all__ = [
     "Principal",
     "Reciprocity",
     "Response",
+    "RigTest",
     "RunSystem",
     "SetupDeflection",
     "StaticHysteresis",
@@ -126,6 +133,7 @@ __all__ = [
     "StiffnessMap",
     "Symmetry",
     "Systems",
+    "TorqueParts",
     "Trace",
     "TwistRun",
     "VariableCompliance",

@@ -87,9 +87,10 @@ def _driven_back(found: StiffnessMap, drives: Sequence[FeedDrive]) -> Check:
 
 
 def _measured(found: StiffnessMap, untested: str) -> Check:
-    name, agreement = "force agrees with the dynamometer", found.dynamometer
-    if agreement is None:
+    name = "force agrees with the dynamometer"
+    if found.dynamometer is None:
         return Check(name, None, {"reason": untested})
+    agreement = found.dynamometer.agreement
     facts = {
         "gain": agreement.gain,
         "gain_interval": agreement.gain_interval,
@@ -106,8 +107,8 @@ def _measured(found: StiffnessMap, untested: str) -> Check:
 
 
 def _rig(found: StiffnessMap) -> Check:
-    rig = found.rig
-    assert rig is not None
+    assert found.rig is not None
+    rig = found.rig.check
     worst = int(np.argmax(np.abs(rig.normalised_error)))
     facts = {
         "share": float(np.mean(rig.agrees)),

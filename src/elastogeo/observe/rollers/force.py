@@ -17,6 +17,7 @@ from scipy.linalg import solve_triangular
 from elastogeo.drive import (
     FeedDrive,
     TorqueBalance,
+    effort_from_force,
     force_from_effort,
     joint_forces,
     motion_columns,
@@ -43,11 +44,14 @@ class ContactForce:
         Root mean square of what the harmonics leave of the samples.
     influences : tuple of (label, standard uncertainty, degrees of freedom, array of shape (m,))
         Change of the force per unit of what is uncertain in the drives.
+    load : mapping of str to array, shape (m,) [N mm; N of a linear motor]
+        Effort of the motor of each drive that holds it, by axis, smoothed to harmonics of the turn.
     """
 
     force: Array
     scatter: float
     influences: tuple[tuple[str, float, float, Array], ...]
+    load: Mapping[str, Array]
 
 
 def contact_force(
@@ -89,11 +93,13 @@ def contact_force(
 
     force, scatter = np.zeros(len(track.angle)), 0.0
     influences: list[tuple[str, float, float, Array]] = []
+    load: dict[str, Array] = {}
     for drive in drives:
         axis, balance, record = drive.axis, balances[drive.axis], track.records[drive.axis]
         driving = drives_against(machine, track, axis, tool)
         samples = force_from_effort(drive, balance.disturbance(record), driving)
         held = smooth[axis](samples)
+        load[axis] = effort_from_force(drive, held, driving)
         scatter += float(np.mean(np.square(samples - held)[_counts(track, axis, balance.model.least_speed or 0.0)]))
         part = along(axis, held)
         force += part
@@ -106,7 +112,7 @@ def contact_force(
         for size, freedom, change in _independent(balance):
             moved = -force_from_effort(drive, columns @ change, driving)
             influences.append((f"friction and inertia of {axis}", size, freedom, along(axis, smooth[axis](moved))))
-    return ContactForce(force, float(np.sqrt(scatter)), tuple(influences))
+    return ContactForce(force, float(np.sqrt(scatter)), tuple(influences), load)
 
 
 def drives_against(machine: Machine, track: Track, axis: str, tool: Array | None = None) -> NDArray[np.bool_]:

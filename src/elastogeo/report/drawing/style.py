@@ -22,6 +22,8 @@ BLUE, ORANGE, GREEN, GREY, INK, FAINT = "#0072b2", "#d55e00", "#009e73", "#76767
 """After Okabe and Ito (2008)."""
 WIDTH = 7.0
 """Width of every figure [in]: that of a page of A4 between its margins."""
+READABLE = 5.2
+"""Width of a figure of the first screen [in] whose letters are still read where the screen is a phone's."""
 SMALL = 7.5
 """Size of notes [pt]; labels have 8.5."""
 
@@ -69,9 +71,9 @@ def house_style(outlines: bool = False) -> Iterator[None]:
         yield
 
 
-def new_figure(height: float, top: float = 1.0) -> Figure:
-    """An empty figure of the house's width and this height [in]; it is laid out below `top`, a part of the height."""
-    return Figure(figsize=(WIDTH, height), layout=ConstrainedLayoutEngine(rect=(0, 0, 1, top)))
+def new_figure(height: float, top: float = 1.0, width: float = WIDTH) -> Figure:
+    """An empty figure of this width and height [in]; it is laid out below `top`, a part of the height."""
+    return Figure(figsize=(width, height), layout=ConstrainedLayoutEngine(rect=(0, 0, 1, top)))
 
 
 def grid(count: int, columns: int, height: float, sharey: bool = False) -> tuple[Figure, list[Axes]]:

@@ -1,19 +1,17 @@
-"""A stiffness map in words and figures: rows for every reader, and the polar figure."""
+"""A stiffness map in words and numbers: the rows of its tables, for every reader."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from elastogeo.identification import Stiffness, StiffnessMap
-from elastogeo.report.extra import needs_report_extra
+from elastogeo.identification import ComparedForce, RigTest, Stiffness, StiffnessMap
+from elastogeo.machine import Array
+from elastogeo.report.drive_terms import effort_unit, term_name
 from elastogeo.report.numbers import significant, value_with_uncertainty
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 UM = 1000.0
 """Micrometres in a millimetre; N/um are thousands of N/mm."""
@@ -41,8 +39,9 @@ class StiffnessRow:
 
 @dataclass(frozen=True, slots=True)
 class LevelRow:
-    """One engagement, formatted: its mean force, and least to greatest stiffness [N/um] of each kind around the turn."""
+    """One engagement, formatted: commanded, its mean force, and the stiffness [N/um] of each kind around the turn."""
 
+    engagement: str
     force: str
     secant: str
     increment: str
@@ -83,8 +82,14 @@ def level_rows(found: StiffnessMap) -> tuple[LevelRow, ...]:
     modelled = found.modelled if len(found.modelled) > 1 else found.modelled * len(found.secants)
     increments = (None, *found.increments)
     return tuple(
-        LevelRow(f"{secant.force[0]:.0f}", _around(secant), "" if step is None else _around(step), _around(law))
-        for secant, step, law in zip(found.secants, increments, modelled, strict=True)
+        LevelRow(
+            engagement=f"{engagement * UM:.4g}",
+            force=f"{secant.force[0]:.0f}",
+            secant=_around(secant),
+            increment="" if step is None else _around(step),
+            modelled=_around(law),
+        )
+        for engagement, secant, step, law in zip(found.engagements, found.secants, increments, modelled, strict=True)
     )
 
 
@@ -93,9 +98,16 @@ def _around(found: Stiffness) -> str:
     return low if low == high else f"{low} to {high}"
 
 
+def span(levels: Sequence[Stiffness]) -> str:
+    """The stiffness of levels, of their mean compliance around the turn: from the first to the last, `16.9 to 15.6`."""
+    first, last = (float(np.mean(level.compliance)) for level in (levels[0], levels[-1]))
+    said = [_stiffness(1 / value if value > 0 else inf) for value in (first, last)]
+    return said[0] if len(levels) == 1 or said[0] == said[1] else " to ".join(said)
+
+
 def overall_name(found: StiffnessMap) -> str:
     """What the stiffness by direction is: `modelled`, `increment 1010 to 1550 N`."""
-    return _named(found.overall)
+    return kind_name(found.overall)
 
 
 def balance_rows(found: StiffnessMap) -> tuple[BalanceRow, ...]:
@@ -105,49 +117,105 @@ def balance_rows(found: StiffnessMap) -> tuple[BalanceRow, ...]:
         for parameter in parameters:
             value, half = parameter.estimate.value, parameter.estimate.expanded()
             shown = value_with_uncertainty(value, half) if half else f"{value:g} (given)"
-            rows.append(BalanceRow(axis, parameter.label, shown, parameter.unit))
+            rows.append(BalanceRow(axis, term_name(parameter.label), shown, parameter.unit))
     return tuple(rows)
 
 
-def stiffness_figure(found: StiffnessMap) -> Figure:
-    """Stiffness by direction: what stands for the machine with its interval, and the increment of each engagement.
-
-    Raises
-    ------
-    MissingExtraError
-        If matplotlib is not installed.
-    """
-    with needs_report_extra():
-        from elastogeo.report.drawing.style import BLUE, force_colours, house_style, new_figure
-    with house_style():
-        figure = new_figure(5.2)
-        ax = figure.add_subplot(projection="polar")
-        ax.tick_params(axis="x", pad=1)
-        figure.set_layout_engine("constrained", rect=(0.05, 0.0, 0.95, 1.0))
-        low, high = (_closed(bound) / UM for bound in found.overall.stiffness_interval.T)
-        around = _closed(found.overall.angle, turn=2 * np.pi)
-        ax.fill_between(around, low, np.where(np.isfinite(high), high, low), color=BLUE, alpha=0.15, linewidth=0)
-        ax.plot(around, _closed(found.overall.stiffness) / UM, color=BLUE, label=f"{_named(found.overall)}, 95 %")
-        colours = force_colours([step.force[-1] for step in found.increments])
-        for step in found.increments:
-            ax.plot(around, _closed(step.stiffness) / UM, color=colours[step.force[-1]], linewidth=0.8, label=_named(step))
-        ax.set_ylim(0.0, 1.15 * float(np.max(found.overall.stiffness[np.isfinite(found.overall.stiffness)])) / UM)
-        ax.set_title("volumetric stiffness (N/µm)" + (", simulated" if found.joints.test.simulated else ""))
-        figure.legend(loc="outside right upper")
-    return figure
-
-
-def _named(found: Stiffness) -> str:
+def kind_name(found: Stiffness) -> str:
+    """A stiffness by its kind and its forces: `secant, 1503 N`."""
     between = " to ".join(f"{force:.0f}" for force in found.force)
     return f"{found.kind}, {between} N" if between else f"{found.kind}, all engagements"
 
 
-def _closed(
-    values: np.ndarray[tuple[int], np.dtype[np.float64]], turn: float = 0.0
-) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """The values with the first once more at their end."""
-    return np.append(values, values[0] + turn)
-
-
 def _stiffness(value: float) -> str:
     return "∞" if value == inf else significant(value / UM, 3)
+
+
+@dataclass(frozen=True, slots=True)
+class TorqueRow:
+    """One part of the effort of one motor, formatted: its greatest size along the turn."""
+
+    axis: str
+    part: str
+    peak: str
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class ForceRow:
+    """One engagement against the dynamometer, formatted [N]."""
+
+    engagement: str
+    runs: str
+    dynamometer: str
+    current: str
+    rms_difference: str
+
+
+@dataclass(frozen=True, slots=True)
+class RigRow:
+    """One engagement without and with the rig, formatted, along the direction in which the rig gives way most [um/N]."""
+
+    engagement: str
+    without: str
+    predicted: str
+    measured: str
+
+
+def torque_rows(found: StiffnessMap) -> tuple[TorqueRow, ...]:
+    """The greatest size of each part of the effort, motor by motor."""
+    rows = []
+    for motor in found.torques:
+        unit, factor = effort_unit(motor.unit)
+        rows += [
+            TorqueRow(motor.axis, term_name(part), significant(motor.peak(part) * factor, 3), unit) for part in motor.parts
+        ]
+    return tuple(rows)
+
+
+def force_rows(found: StiffnessMap) -> tuple[ForceRow, ...]:
+    """The force from the currents against the dynamometer, an engagement each: root mean squares over its runs."""
+    if found.dynamometer is None:
+        return ()
+    levels: dict[float, list[ComparedForce]] = {}
+    for force in found.dynamometer.forces:
+        levels.setdefault(force.engagement, []).append(force)
+    return tuple(
+        ForceRow(
+            engagement=f"{engagement * UM:.4g}",
+            runs=str(len({force.run for force in forces})),
+            dynamometer=_rms([force.dynamometer for force in forces]),
+            current=_rms([force.current for force in forces]),
+            rms_difference=_rms([force.current - force.dynamometer for force in forces]),
+        )
+        for engagement, forces in sorted(levels.items())
+    )
+
+
+def _rms(traces: Sequence[Array]) -> str:
+    return significant(float(np.sqrt(np.mean([np.mean(trace**2) for trace in traces]))), 3)
+
+
+def rig_rows(without: StiffnessMap, found: RigTest) -> tuple[RigRow, ...]:
+    """Secants of the engagements that both tests have, and the slope of the supported laws."""
+    k, rows = found.softest, []
+    secants = {round(engagement, 6): secant for engagement, secant in zip(found.engagements, found.secants, strict=True)}
+    for engagement, secant in zip(without.engagements, without.secants, strict=True):
+        measured = secants.get(round(engagement, 6))
+        if measured is not None:
+            rows.append(
+                RigRow(
+                    f"secant at {engagement * UM:.4g} µm",
+                    _compliance(secant.compliance[k]),
+                    _compliance(secant.compliance[k] + found.rig[k]),
+                    _compliance(measured.compliance[k]),
+                )
+            )
+    halves = [np.diff(one.interval[k])[0] / 2 for one in (found.without, found.measured)]
+    values = (found.without.compliance[k], found.measured.compliance[k])
+    said = [value_with_uncertainty(value * UM, half * UM) for value, half in zip(values, halves, strict=True)]
+    return (*rows, RigRow("modelled", said[0], _compliance(found.predicted[k]), said[1]))
+
+
+def _compliance(value: float) -> str:
+    return significant(value * UM, 4)
