@@ -9,6 +9,7 @@ from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, ForceInflue
 from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
 from elastogeo.observe.measurement import KnownInfluence, MachineTest, Question
+from elastogeo.observe.nests import BallMotion, SphereNest
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
 from elastogeo.observe.positioning import Approaches, Positioning, approaches
 from elastogeo.observe.rollers.ball_roller import BallRoller, Pressed
@@ -27,6 +28,7 @@ __all__ = [
     "About",
     "Approaches",
     "BallBar",
+    "BallMotion",
     "BallRoller",
     "Calibration",
     "Circle",
@@ -50,6 +52,7 @@ __all__ = [
     "SensorTwist",
     "Setup",
     "SetupFact",
+    "SphereNest",
     "StaticForce",
     "Template",
     "approaches",

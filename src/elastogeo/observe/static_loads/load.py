@@ -7,7 +7,7 @@ known direction (column `force`, or one force for the whole run), or by componen
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -15,14 +15,11 @@ from elastogeo.errors import InputError
 from elastogeo.machine import Array, Machine
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector
-from elastogeo.observe.imperfection import Imperfection
+from elastogeo.observe.displacements import recorded
 from elastogeo.observe.run import Run
 
 COMPONENTS = ("force_x", "force_y", "force_z")
 """Columns [N] of a force that is recorded by components, along the axes of the frame in which directions are given."""
-
-MOST_DISPLACEMENT = 5.0
-"""Reading [mm] that a static test may have: more is a wrong unit, or no machine tool."""
 
 _STANDING = 1e-6
 """Positions [mm, rad] of one run may differ by this much: it is to stand still."""
@@ -36,52 +33,6 @@ def axes_along(direction: Direction) -> str:
 def force_columns(direction: Direction | None) -> tuple[str, ...]:
     """Columns that say the force of every reading: along a known direction, or by components if there is none."""
     return COMPONENTS if direction is None else ("force",)
-
-
-def recorded(run: Run, columns: Sequence[str], optional: str = "") -> dict[str, Array]:
-    """The columns of a run that an instrument needs, all of one length.
-
-    Parameters
-    ----------
-    run : Run
-    columns : sequence of str
-    optional : str
-        One of them that need not be there.
-
-    Raises
-    ------
-    InputError
-        If one is missing, they differ in length, or there is no reading.
-    """
-    missing = [name for name in columns if name not in run.columns and name != optional]
-    if missing:
-        there = ", ".join(run.columns) or "none"
-        raise InputError(f"run {run.name!r} lacks the column {', '.join(missing)}; its columns are: {there}")
-    found = {name: np.asarray(run.columns[name]) for name in columns if name in run.columns}
-    lengths = {name: len(values) for name, values in found.items()}
-    if len(set(lengths.values())) > 1:
-        said = ", ".join(f"{count} of {name}" for name, count in lengths.items())
-        raise InputError(f"run {run.name!r} has {said}; every reading needs one value of each")
-    if not max(lengths.values(), default=0):
-        raise InputError(f"run {run.name!r} has no reading")
-    return found
-
-
-def check_displacements(run: Run, names: Sequence[str]) -> None:
-    """Refuse displacements of a size that only a wrong unit gives.
-
-    Raises
-    ------
-    InputError
-        If one is greater than `MOST_DISPLACEMENT`.
-    """
-    for name in names:
-        most = float(np.abs(run.columns[name]).max())
-        if most > MOST_DISPLACEMENT:
-            raise InputError(
-                f"run {run.name!r}: {name} reaches {most:.4g} mm; are they micrometres given as millimetres, or readings "
-                f"whose zero was not taken off?"
-            )
 
 
 def force_vectors(run: Run, direction: Direction | None, count: int, level: float | None) -> Array:
@@ -161,14 +112,6 @@ def commands_row(machine: Machine, commands: Mapping[str, float]) -> Array:
 def with_lever(force: Array, lever: Array) -> Array:
     """Wrench at the functional point, shape (m, 6) [N, N mm], of a force, shape (m, 3), that acts at a lever from it."""
     return np.asfortranarray(np.hstack([force, np.cross(lever, force)]))
-
-
-def read_by(imperfection: Imperfection, true: Array, sensors: int, random: np.random.Generator) -> list[Array]:
-    """Readings of each sensor, shape (m,) each, with its imperfections, of true readings one sensor after the other.
-
-    Noise and resolution only: eccentricity and residues belong to instruments that turn.
-    """
-    return [imperfection.noisy(part, random) for part in np.split(true, sensors)]
 
 
 def planned(machine: Machine, run: Run, direction: Direction | None, *, ramp: bool) -> dict[str, Array]:

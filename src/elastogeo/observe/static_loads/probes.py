@@ -16,6 +16,7 @@ from elastogeo.errors import InputError
 from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Motion, Point, follow, loop_frames
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector, unit_vectors
+from elastogeo.observe.displacements import check_displacements, read_by, recorded
 from elastogeo.observe.force import Calibration, force_influences, force_of_run
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
@@ -24,12 +25,9 @@ from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
 from elastogeo.observe.static_loads.load import (
     COMPONENTS,
-    check_displacements,
     force_level,
     force_sizes,
     force_vectors,
-    read_by,
-    recorded,
     with_lever,
 )
 from elastogeo.observe.template import FORCE, Template

@@ -18,21 +18,19 @@ from elastogeo.errors import InputError
 from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector
+from elastogeo.observe.displacements import check_displacements, read_by, recorded
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, check_observations
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
 from elastogeo.observe.static_loads.load import (
-    check_displacements,
     commands_row,
     force_columns,
     force_level,
     force_sizes,
     force_vectors,
     planned,
-    read_by,
-    recorded,
     static_commands,
     with_lever,
 )

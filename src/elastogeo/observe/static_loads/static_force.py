@@ -16,6 +16,7 @@ import numpy as np
 from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector
+from elastogeo.observe.displacements import check_displacements, recorded
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, check_observations
@@ -23,14 +24,12 @@ from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
 from elastogeo.observe.static_loads.load import (
     axes_along,
-    check_displacements,
     commands_row,
     force_columns,
     force_level,
     force_sizes,
     force_vectors,
     planned,
-    recorded,
     static_commands,
     with_lever,
 )
