@@ -13,6 +13,7 @@ from elastogeo.drive import FeedDrive, KnownBalance, SetupCompliance
 from elastogeo.machine import Array, Joint, Machine, parse_topology
 from elastogeo.observe import (
     BallBar,
+    BallMotion,
     BallRoller,
     Circle,
     LoadedBallBar,
@@ -21,6 +22,7 @@ from elastogeo.observe import (
     Question,
     Run,
     Setup,
+    SphereNest,
     instrument_named,
     instruments,
 )
@@ -143,6 +145,15 @@ def sensor_frame(arrangement: Arrangement) -> Setup:
     return SensorFrame(sensors, (1.0, -2.0, 1.0), arrangement.centre, (15.0, -10.0, -40.0), in_workpiece=True)
 
 
+def sphere_nest(arrangement: Arrangement) -> Setup:
+    """Preloaded; in the arrangements in which a rotary axis turns it turns here too, all the way."""
+    start = {axis: arrangement.centre.get(axis, 0.0) for axis in arrangement.rotary_turn}
+    end = {axis: start[axis] + 2 * np.pi * turn for axis, turn in arrangement.rotary_turn.items()}
+    motions = (BallMotion(start, end),) if start else ()
+    sensors = ((1.0, 0.0, 1.0), (-0.5, 0.9, 1.0), (-0.4, -0.8, 1.2))
+    return SphereNest(sensors, arrangement.centre, "tool", (), motions, preload=(0.3, -0.2, 1.0))
+
+
 SETUPS: dict[str, Callable[[Arrangement], Setup]] = {
     "ball-bar": ball_bar,
     "ball-roller": ball_roller,
@@ -151,6 +162,7 @@ SETUPS: dict[str, Callable[[Arrangement], Setup]] = {
     "positioning": positioning,
     "displacement-probes": displacement_probes,
     "sensor-frame": sensor_frame,
+    "sphere-nest": sphere_nest,
     "static-force": static_force,
 }
 """How each instrument is set up in an arrangement. A new instrument adds its line here and is held to the contract."""
@@ -223,10 +235,18 @@ def blank(setup: Setup, pose: Array, force: float) -> dict[str, Array]:
 
 PRESSED = tuple(arrangement for arrangement in ARRANGEMENTS[:5] if arrangement.plane in ("XY", "ZX", "YZ"))
 
+
+def is_turned(instrument: str, arrangement: Arrangement) -> bool:
+    """Whether a nest is turned: that is what it is for, and held still it reads as probes do."""
+    return instrument == "sphere-nest" and bool(arrangement.rotary_turn)
+
+
 CASES = tuple(
     Case(name, arrangement)
     for name, arrangement in product(instruments(), ARRANGEMENTS)
-    if name in SETUPS and name != "ball-roller" and (name in IN_ALL or arrangement in IN_SOME)
+    if name in SETUPS
+    and name != "ball-roller"
+    and (name in IN_ALL or arrangement in IN_SOME or is_turned(name, arrangement))
 )
 MEASURED = tuple(Case("ball-roller", arrangement) for arrangement in PRESSED)
 """The force of these is measured, so that it has an error of its own: they are held to the parts of the contract that do not
