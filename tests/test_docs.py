@@ -13,7 +13,7 @@ import elastogeo as eg
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
-PAGES = ("tutorial.md", "drive.md", "ball-roller.md", "static.md", "ball-bar.md")
+PAGES = ("tutorial.md", "drive.md", "ball-roller.md", "static.md", "ball-bar.md", "rotary-axes.md")
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -28,6 +28,7 @@ from elastogeo.identification.model_choice.choice import compare_models
 from elastogeo.identification.model_choice.following import OffLevel
 from elastogeo.identification.model_choice.result import Candidate, ModelChoice
 from elastogeo.identification.model_choice.variable_compliance import VariableCompliance, gain_of
+from elastogeo.identification.nests.deviations import BallDeviations, ball_deviations
 from elastogeo.identification.physics import PHYSICALLY_CONSISTENT, Consistency, consistency
 from elastogeo.identification.preference import moving_axes, retaining_order
 from elastogeo.identification.question import (
@@ -81,6 +82,7 @@ __all__ = [
     "AgainstDynamometer",
     "Agreement",
     "AxisDrive",
+    "BallDeviations",
     "BarCalibration",
     "BeforeAfter",
     "Branch",
@@ -140,6 +142,7 @@ __all__ = [
     "WhatIf",
     "adjacent",
     "agreement",
+    "ball_deviations",
     "branches_of",
     "calibrate",
     "calibrate_force",

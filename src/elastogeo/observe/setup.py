@@ -53,7 +53,7 @@ class Setup(ABC):
         Whether the instrument loads the machine.
     extra : str
         Which result it has besides parameters: `circularity`, `stiffness-map`, `loading-cycles`, `cartesian-stiffness`,
-        `twist`; empty for none.
+        `twist`, `ball-deviations`; empty for none.
     limits : tuple of str
         What its results rest on and cannot show themselves, as constants for which `report` has the sentences.
     template : Template or None

@@ -55,12 +55,14 @@ PRESETS: dict[str, tuple[str, ...]] = {
         *("C_XXX", "C_XYX", "C_YYY", "C_CXY", "C_CYY", "C_CCY"),
         *("E_XX1", "E_YX2", "E_XY2", "E_YY1", "E_C(0Y)X", "E_Xt0", "E_Yt0"),
     ),
+    "rotary-axes": tuple(f"E_[{across}](0*){axis}|" for axis, across in {"A": "YZBC", "B": "XZAC", "C": "XYAB"}.items()),
     "volumetric": ("V_*", "G_*"),
     "geometry-3-axis": ("E_[XYZABC][XYZ][12]", "E_[ABC](0*)[XYZ]"),
     "geometry-5-axis": ("E_[XYZABC][XYZ][12]", "E_[XYZABC][ABC][cs]1", "E_?(0*)[XYZABC]"),
 }
 """Named selections: all joint compliances; those of one plane; ball bar diagnosis; compliance, geometry and location of a
-loaded circle; the 13 of Table 5.1, whose set-up is one for all runs; compliance and path by direction; whole machines.
+loaded circle; the 13 of Table 5.1, whose set-up is one for all runs; the location errors of rotary axes across themselves
+(ISO 230-1: two positions and two orientations each); compliance and path by direction; whole machines.
 
 In a pattern `|` separates alternatives, of which the first that selects anything counts; an empty one may select nothing.
 """

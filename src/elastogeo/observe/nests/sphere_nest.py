@@ -17,7 +17,7 @@ from elastogeo.errors import InputError
 from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, LoopFrames, Machine, Motion, Point, follow, loop_frames
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector, unit_vectors
-from elastogeo.observe.displacements import check_displacements, read_by, recorded
+from elastogeo.observe.displacements import MOST_DISPLACEMENT, check_displacements, read_by, recorded
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.nests.motion import BallMotion, planned_commands
@@ -29,8 +29,16 @@ from elastogeo.observe.template import Template
 ENDS = {"tool": "t", "workpiece": "w"}
 """The two ends of the loop, and the letter of the offsets there: `E_Xt0`, `E_Xw0`."""
 
-_PERPENDICULAR = {"A": ("YZ", "BC"), "B": ("XZ", "AC"), "C": ("XY", "AB")}
-"""Of each rotary axis: the positions and the orientations that are location errors (ISO 230-1)."""
+_INFLUENCE = """\
+[[influences]]
+kind = "sensor-scale"
+label = "calibration of the sensors"
+relative = 0.002
+
+"""
+
+MOST_TURNS = 10.0
+"""Turns of a rotary axis that a run may have."""
 
 _SETUP = """\
 [setup]
@@ -99,7 +107,7 @@ class SphereNest(Setup):
     nest : str
         The end that carries the nest: `workpiece` (ball in the spindle) or `tool` (ball on the table).
     known : tuple of str
-        The ends whose point is known, `tool`, `workpiece`, or both: their offsets are not asked for unless the question does.
+        The ends whose point is known, `tool`, `workpiece`, or both: nobody asks for their offsets but the question.
     motions : tuple of BallMotion
         Of a run that does not record its rotary axes: one after the other over a full turn of its `angle`.
     preload : 3-vector or None
@@ -116,6 +124,7 @@ class SphereNest(Setup):
     preload: Direction | None = None
     tool: Point | None = None
 
+    extra: ClassVar = "ball-deviations"
     limits: ClassVar = ("sensor",)
     template: ClassVar = Template(
         title="Sphere nest about rotary axes",
@@ -124,6 +133,7 @@ class SphereNest(Setup):
         simulation=_SIMULATION,
         level="",
         repeats=4,
+        influences=_INFLUENCE,
     )
 
     def __post_init__(self) -> None:
@@ -152,10 +162,7 @@ class SphereNest(Setup):
 
     def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
         """The location errors of every rotary axis, and the offsets of the ends that are not known."""
-        locations = (
-            f"E_[{positions}{orientations}](0*){axis}|" for axis, (positions, orientations) in _PERPENDICULAR.items()
-        )
-        return (*locations, *(f"E_[XYZ]{letter}0" for end, letter in ENDS.items() if end not in self.known))
+        return ("rotary-axes", *(f"E_[XYZ]{letter}0" for end, letter in ENDS.items() if end not in self.known))
 
     def facts(self) -> tuple[SetupFact, ...]:
         """Directions of the sensors, where the nest is, what is known, the centre, the preload."""
@@ -188,6 +195,7 @@ class SphereNest(Setup):
         frames = loop_frames(machine, commands, tool)
         directions = self._directions(frames, count)
         missed = frames.point - frames.workpiece.point(planned.ball)
+        _check_followed(run, missed)
         correction = np.concatenate([np.sum(direction * missed, axis=1) for direction in directions])
         translation = np.concatenate(directions)
         observations = Observations(
@@ -224,12 +232,16 @@ class SphereNest(Setup):
         return replace(run, columns={**columns, **dict(zip(self.readings, read, strict=True))})
 
     def _rotary(self, machine: Machine, run: Run, count: int) -> dict[str, Array]:
-        """Commands of the rotary axes that the run records, shape (m,) [rad]; where it records none, those of the motions."""
+        """Commands of the rotary axes, shape (m,) [rad]: those that the run records; if none, those of the motions."""
         axes = [joint.name for joint in machine.joints if joint.is_rotary]
         found = {axis: np.asarray(run.columns[axis.lower()]) for axis in axes if axis.lower() in run.columns}
-        if not found and self.motions:
-            angle = recorded(run, ["angle"])["angle"]
-            found = planned_commands(self.motions, self.centre, angle)
+        if not found and not self.motions:
+            raise InputError(
+                f"run {run.name!r} does not say where its rotary axes are: record their commands (a_deg, c_deg), or say the "
+                f"[[setup.motions]]"
+            )
+        if not found:
+            found = planned_commands(self.motions, self.centre, recorded(run, ["angle"])["angle"])
         for axis, values in found.items():
             machine.index(axis)
             if len(values) != count:
@@ -237,6 +249,11 @@ class SphereNest(Setup):
             if not np.isfinite(values).all():
                 row = int(np.flatnonzero(~np.isfinite(values))[0])
                 raise InputError(f"run {run.name!r}: the position of {axis} at reading {row + 1} is no finite number")
+            if np.ptp(values) > MOST_TURNS * 2 * np.pi:
+                raise InputError(
+                    f"run {run.name!r}: {axis} spans {np.ptp(values) / (2 * np.pi):.3g} turns; are they degrees given as "
+                    f"radians?"
+                )
         return found
 
     def _directions(self, frames: LoopFrames, count: int) -> list[Array]:
@@ -268,3 +285,13 @@ def _with_recorded(machine: Machine, run: Run, position: Array) -> Array:
                 raise InputError(f"run {run.name!r}: a position of axis {axis} is no finite number; take the reading out")
             position[:, machine.index(axis)] = values
     return position
+
+
+def _check_followed(run: Run, missed: Array) -> None:
+    """Refuse positions at which the ball cannot be in the nest."""
+    worst = np.abs(missed).max(axis=1)
+    if worst.max() > MOST_DISPLACEMENT:
+        raise InputError(
+            f"run {run.name!r}: the linear axes miss the ball by {worst.max():.4g} mm at reading {int(worst.argmax()) + 1}; "
+            f"correct the centre of the set-up, the machine's offsets, or the unit of the positions"
+        )

@@ -59,25 +59,43 @@ _CAPTIONS = {
     ),
 }
 
+_DEVIATIONS = (
+    "Deviation of the tool from the workpiece ball along X, Y and Z of the machine, over the poses; above, where the rotary "
+    "axes are.",
+    "Deviations of the ball in the nest in X, Y and Z, measured and predicted, over the rotary axes",
+)
+"""Of the traces of a nest."""
+
 _ALONG = ("Measured and predicted readings of every force level.", "Measured and predicted readings of every force level")
 """Of traces that do not go around a circle."""
 
 
 def picture(name: str, result: Identification) -> Picture:
     """A picture of an identification."""
-    around = name != "traces" or result.test.setup.pose_quantity == "angle"
-    caption, alternative = _CAPTIONS[name] if around else _ALONG
+    caption, alternative = _CAPTIONS[name]
+    if name == "traces" and in_a_nest(result):
+        caption, alternative = _DEVIATIONS
+    elif name == "traces" and result.test.setup.pose_quantity != "angle":
+        caption, alternative = _ALONG
     return Picture(name, caption, alternative, lambda: _drawn(name, result))
+
+
+def in_a_nest(result: Identification) -> bool:
+    """Whether the readings are those of a ball in a nest."""
+    return result.test.setup.extra == "ball-deviations"
 
 
 def _drawn(name: str, result: Identification) -> Figure:
     from elastogeo.report.identification.contributions import contributions_figure
+    from elastogeo.report.identification.deviations import deviations_figure
     from elastogeo.report.identification.estimates import local_figure, repeats_figure
     from elastogeo.report.identification.patterns import patterns_figure
     from elastogeo.report.identification.separation import separation_figure
     from elastogeo.report.identification.traces import residuals_figure, traces_figure
     from elastogeo.report.identification.uncertainties import budget_figure, models_figure
 
+    if name == "traces" and in_a_nest(result):
+        return deviations_figure(result)
     if name == "models":
         assert result.models is not None
         return models_figure(result.models)

@@ -1,0 +1,136 @@
+"""What a run of a sphere nest becomes: poses, directions, what linear axes miss, what is refused."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from elastogeo.errors import InputError
+from elastogeo.identification import ball_deviations, identify
+from elastogeo.machine import Array, Machine, loop_frames
+from elastogeo.observe import BallMotion, Imperfection, MachineTest, Observations, Run, SphereNest
+from elastogeo.sources import simulate
+
+MakeMachine = Callable[..., Machine]
+SENSORS = ((1.0, 0.0, 1.0), (-0.5, 0.9, 1.0), (-0.4, -0.8, 1.2))
+CENTRE = {"X": 120.0, "Y": 40.0, "Z": -30.0}
+C_TURNS = BallMotion({"C": 0.0}, {"C": 2 * np.pi}, name="C")
+A_SWINGS = BallMotion({"A": -0.8}, {"A": 0.6}, there_and_back=True, name="A")
+READ = {f"displacement_{k}": np.zeros(24) for k in (1, 2, 3)}
+ANGLE = np.arange(24) * 2 * np.pi / 24
+
+
+def table_table(make_machine: MakeMachine) -> Machine:
+    return make_machine("wCAFYXZt", tool=(10.0, -5.0, -180.0), seed=8)
+
+
+def observed(machine: Machine, setup: SphereNest, **columns: Array) -> Observations:
+    return setup.observe(machine, Run("one", {**READ, **columns}))
+
+
+def test_the_ball_stays_in_the_nest_and_the_sensors_turn_with_the_table(make_machine: MakeMachine) -> None:
+    machine = table_table(make_machine)
+    seen = observed(machine, SphereNest(SENSORS, CENTRE, motions=(C_TURNS, A_SWINGS)), angle=ANGLE)
+    frames = loop_frames(machine, seen.commands, seen.tool)
+    assert_allclose(frames.point, frames.workpiece.point(seen.workpiece), atol=1e-9)
+    assert np.ptp(seen.commands[:, machine.index("C")]) > 5
+    directions = frames.workpiece.components(seen.direction[:, :3])
+    for k, sensor in enumerate(SENSORS):
+        n = np.array(sensor) / np.linalg.norm(sensor)
+        assert_allclose(directions[24 * k : 24 * (k + 1)], np.broadcast_to(n, (24, 3)), atol=1e-12)
+
+
+def test_motions_come_one_after_the_other_over_one_turn(make_machine: MakeMachine) -> None:
+    machine = table_table(make_machine)
+    seen = observed(machine, SphereNest(SENSORS, {**CENTRE, "A": 0.1}, motions=(C_TURNS, A_SWINGS)), angle=ANGLE)
+    c, a = (seen.commands[:24, machine.index(axis)] for axis in "CA")
+    assert_allclose(c[:12], 2 * np.pi * np.arange(12) / 12, atol=1e-12)
+    assert_allclose(a[:12], 0.1)
+    assert_allclose(c[12:], 0.0)
+    assert_allclose(a[[12, 18]], [-0.8, 0.6], atol=1e-12)  # at its start, and half way at its other end
+
+
+def test_a_nest_on_the_tool_reads_the_other_way(make_machine: MakeMachine) -> None:
+    """Nothing turns: the same sensor on the other end sees the ball go the other way."""
+    machine = table_table(make_machine)
+    still = {"c": np.zeros(24)}
+    on_table, on_tool = (observed(machine, SphereNest(SENSORS, CENTRE, end), **still) for end in ("workpiece", "tool"))
+    frames = loop_frames(machine, on_table.commands, on_table.tool)
+    assert_allclose(
+        frames.workpiece.components(on_table.direction[:, :3]), -frames.tool.components(on_tool.direction[:, :3]), atol=1e-12
+    )
+
+
+@pytest.mark.parametrize("nest", ["workpiece", "tool"])
+def test_an_offset_of_the_tool_is_the_same_deviation_whatever_the_sensors(make_machine: MakeMachine, nest: str) -> None:
+    """The three deviations are those of the tool in the foundation, on whichever end the nest sits."""
+    machine = make_machine("wCAFYXZt")
+    runs = tuple(Run(str(k), {"angle": ANGLE}) for k in range(3))
+    test = MachineTest("nest", machine, SphereNest(SENSORS, CENTRE, nest, ("workpiece",), (C_TURNS, A_SWINGS)), runs)
+    found = ball_deviations(identify(simulate(test, {"E_Xt0": 0.01, "E_Zt0": -0.02}, Imperfection(noise=1e-6))))
+    assert len(found) == 3
+    for run in found:
+        assert set(run.rotary) == {"A", "C"}
+        assert_allclose(run.measured, np.tile([0.01, 0.0, -0.02], (24, 1)), atol=1e-5)
+        assert_allclose(run.predicted, run.measured, atol=1e-5)
+
+
+def test_what_recorded_linear_axes_miss_is_taken_off(make_machine: MakeMachine) -> None:
+    machine = make_machine("wCAFYXZt")
+    setup = SphereNest(((1, 0, 0), (0, 1, 0), (0, 0, 1)), CENTRE)
+    still = {axis.lower(): np.full(24, value) for axis, value in {**CENTRE, "A": 0.0, "C": 0.0}.items()}
+    seen = observed(machine, setup, **{**still, "x": still["x"] + 0.003})
+    assert_allclose(seen.correction, np.repeat([0.003, 0.0, 0.0], 24), atol=1e-12)
+    assert_allclose(seen.reading, -seen.correction)
+
+
+def test_a_simulated_run_records_its_rotary_axes_and_reads_back_the_same(make_machine: MakeMachine) -> None:
+    machine = table_table(make_machine)
+    setup = SphereNest(SENSORS, CENTRE, motions=(C_TURNS, A_SWINGS))
+    test = simulate(MachineTest("nest", machine, setup, (Run("1", {"angle": ANGLE}),)), {"E_X(0A)C": 0.01})
+    (run,) = test.runs
+    assert set(run.columns) == {"a", "c", *READ}
+    (first,), (again,) = test.observations(), replace(test, setup=replace(setup, motions=())).observations()
+    assert_allclose(again.commands, first.commands)
+    assert_allclose(again.reading, first.reading)
+
+
+def test_a_preload_presses_along_its_direction_in_the_nest(make_machine: MakeMachine) -> None:
+    machine = table_table(make_machine)
+    setup = SphereNest(SENSORS, CENTRE, motions=(A_SWINGS,), preload=(0.0, 0.0, 1.0))
+    seen = setup.observe(machine, Run("one", {**READ, "angle": ANGLE}, force=40.0))
+    frames = loop_frames(machine, seen.commands, seen.tool)
+    assert_allclose(frames.workpiece.components(seen.wrench[:, :3]), np.tile([0.0, 0.0, 40.0], (72, 1)), atol=1e-12)
+    with pytest.raises(InputError, match="run 'one' has a force of 40 N and the set-up no direction of it"):
+        replace(setup, preload=None).observe(machine, Run("one", {**READ, "angle": ANGLE}, force=40.0))
+
+
+def test_bad_runs_and_set_ups_are_refused(make_machine: MakeMachine) -> None:
+    machine = table_table(make_machine)
+    setup = SphereNest(SENSORS, CENTRE, motions=(C_TURNS,))
+    with pytest.raises(InputError, match="run 'one' lacks the column displacement_3"):
+        setup.observe(machine, Run("one", {"c": ANGLE, "displacement_1": ANGLE, "displacement_2": ANGLE}))
+    with pytest.raises(InputError, match="run 'one' lacks the column angle"):
+        observed(machine, setup)
+    with pytest.raises(InputError, match="run 'one' does not say where its rotary axes are"):
+        observed(machine, replace(setup, motions=()))
+    with pytest.raises(InputError, match="the position of C at reading 4 is no finite number"):
+        observed(machine, setup, c=np.where(np.arange(24) == 3, np.nan, ANGLE))
+    with pytest.raises(InputError, match="run 'one' has 24 readings and 5 positions of C"):
+        observed(machine, setup, c=np.zeros(5))
+    with pytest.raises(InputError, match=r"C spans 54\.9 turns; are they degrees given as radians"):
+        observed(machine, setup, c=np.rad2deg(ANGLE))
+    with pytest.raises(InputError, match="displacement_2 reaches 12 mm; are they micrometres given as millimetres"):
+        observed(machine, setup, angle=ANGLE, displacement_2=np.full(24, 12.0))
+    with pytest.raises(InputError, match=r"the linear axes miss the ball by 28\.26 mm at reading 1; correct"):
+        observed(machine, setup, c=np.zeros(24), z=np.full(24, -60.0))
+    with pytest.raises(InputError, match="'table' is no end of the structural loop; write tool or workpiece"):
+        SphereNest(SENSORS, nest="table")
+    with pytest.raises(InputError, match="there is no sensor; give each its direction"):
+        SphereNest(())
+    with pytest.raises(InputError, match="the motion 'K1' starts with A and ends with C; name the same rotary axes"):
+        BallMotion({"A": 0.0}, {"C": 1.0}, name="K1")
