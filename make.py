@@ -203,7 +203,7 @@ def installed_extras(fingerprint):
         extras = set(stamp["extras"]) if stamp["fingerprint"] == fingerprint else set()
     except (OSError, ValueError, KeyError, TypeError):
         return set()
-    return extras | {"report", "fast"} if "all" in extras else extras
+    return extras | {"report", "logs", "live"} if "all" in extras else extras
 
 
 def run(command):

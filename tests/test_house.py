@@ -16,7 +16,7 @@ import elastogeo
 
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
-HEAVY = {"jinja2", "matplotlib", "numba", "numpy", "pyarrow", "pydantic", "scipy", "typst"}
+HEAVY = {"jinja2", "matplotlib", "numpy", "pyarrow", "pydantic", "scipy", "typst"}
 TARGETS = {"demo", "test", "bench", "studies", "nightly", "check", "docs", "clean", "help"}
 
 

@@ -13,7 +13,18 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from elastogeo.errors import MachineError
-from elastogeo.machine import AXIS_ORDER, COMPONENTS, Array, Joint, Machine, Topology, jacobian, loop_frames, parse_topology
+from elastogeo.machine import (
+    AXIS_ORDER,
+    COMPONENTS,
+    Array,
+    Joint,
+    Machine,
+    Topology,
+    jacobian,
+    loop_frames,
+    parse_topology,
+    rotation_matrix,
+)
 from elastogeo.observe import MachineTest, Observations
 from elastogeo.sources import Situation, exact_response, linear_response, parameter_values, select_sources
 
@@ -27,6 +38,13 @@ PIN_JOINTS = (
     | dict.fromkeys("ZW", pin.JointModelPZ)
     | {"A": pin.JointModelRX, "B": pin.JointModelRY, "C": pin.JointModelRZ, "S": pin.JointModelRZ}
 )
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-300, 1e-9, 1e-5, 0.3, np.pi, 2 * np.pi - 1e-9, 7.0])
+def test_a_rotation_vector_of_any_size_is_turned_exactly(angle: float) -> None:
+    axes = np.random.default_rng(3).standard_normal((20, 3))
+    vectors = angle * axes / np.linalg.norm(axes, axis=1)[:, np.newaxis]
+    assert_allclose(rotation_matrix(vectors), [pin.exp3(vector) for vector in vectors], rtol=0, atol=2e-15)
 
 
 def pinocchio_jacobian(machine: Machine, commands: Array) -> tuple[Array, Array]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -94,20 +94,17 @@ def test_every_study_has_a_false_alarm_rate_and_a_power_and_keys_of_its_own() ->
         assert any(c.most < 1 for c in study.cells), name
 
 
-SHORT = {name: [c for c in study.cells if c.short] for name, study in studies().items()}
+SHORT = {name: replace(study, cells=tuple(c for c in study.cells if c.short)) for name, study in studies().items()}
 
 
-@pytest.fixture(scope="module")
-def found() -> dict[Cell, Rate]:
-    """All short cells at once: what they share is drawn once."""
-    return rates([c for chosen in SHORT.values() for c in chosen], lambda c: c.short)
+@pytest.mark.parametrize("names", run.groups(SHORT), ids="+".join)
+def test_short_studies_reach_their_rates(names: list[str]) -> None:
+    """With the draws that there are: what a rate that is just good enough would show once in a thousand studies passes.
 
-
-@pytest.mark.parametrize("name", SHORT)
-def test_a_short_study_reaches_its_rates(name: str, found: dict[Cell, Rate]) -> None:
-    """With the draws that there are: what a rate that is just good enough would show once in a thousand studies passes."""
-    assert SHORT[name], "no cell of this study is short; give `short` to some"
-    for c in SHORT[name]:
-        rate = found[c]
+    Studies that share a sample are counted together, so that it is drawn once.
+    """
+    assert all(SHORT[name].cells for name in names), "no cell of a study is short; give `short` to some"
+    found = rates([c for name in names for c in SHORT[name].cells], lambda c: c.short)
+    for c, rate in found.items():
         assert rate.hits >= stats.binom.ppf(1e-3, rate.trials, c.least), (c.key, rate.words)
         assert rate.hits <= stats.binom.ppf(1 - 1e-3, rate.trials, c.most), (c.key, rate.words)

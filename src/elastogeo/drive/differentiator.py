@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from math import ceil, cos, pi, sin, tan
 
@@ -167,10 +168,7 @@ def _by_segment(time: Array, values: Array, cutoff: float, apply: Callable[[Arra
         where = int(np.argmin(np.isfinite(values)))
         raise InputError(f"sample {where + 1} (at {time[where]:g} s) is no finite number; repair the record or cut it there")
     check_cutoff(cutoff, step)
-    # One pass has 1 / sqrt(2) at its cut-off, two have a half.
-    from scipy.signal import butter
-
-    sos = butter(ORDER, cutoff, fs=1 / step, output="sos")
+    sos = _low_pass(cutoff, step)
     result = np.full(len(time), np.nan)
     for segment in _segments(time, step):
         if segment.stop - segment.start >= _LEAST:
@@ -180,6 +178,14 @@ def _by_segment(time: Array, values: Array, cutoff: float, apply: Callable[[Arra
     if np.isnan(result).all():
         raise InputError(f"no segment of the record has the {_LEAST} samples that the filter needs; record longer")
     return result
+
+
+@lru_cache(maxsize=16)  # a search filters the same record at every step
+def _low_pass(cutoff: float, step: float) -> Array:
+    from scipy.signal import butter
+
+    # One pass has 1 / sqrt(2) at its cut-off, two have a half.
+    return np.asarray(butter(ORDER, cutoff, fs=1 / step, output="sos"))
 
 
 def _step(time: Array) -> float:

@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from elastogeo.errors import MachineError
 from elastogeo.estimate import Array
@@ -166,8 +165,16 @@ def steady(values: Array) -> Array:
 
 
 def rotation_matrix(vector: Array) -> Array:
-    """Rotation matrices, shape (m, 3, 3), of rotation vectors, shape (m, 3) [rad]; exact for any angle."""
-    return np.asarray(Rotation.from_rotvec(vector).as_matrix())
+    """Rotation matrices, shape (m, 3, 3), of rotation vectors, shape (m, 3) [rad]; exact for any angle.
+
+    Rodrigues: I + sin(a)/a K + (1 - cos(a))/a^2 K^2, where K v is the vector times v, and a its length.
+    """
+    x, y, z = np.asarray(vector, dtype=float).T
+    none = np.zeros_like(x)
+    cross = np.stack([none, -z, y, z, none, -x, -y, x, none], axis=-1).reshape(-1, 3, 3)
+    turns = np.sqrt(x * x + y * y + z * z)[:, np.newaxis, np.newaxis] / np.pi
+    once, twice = np.sinc(turns), 0.5 * np.sinc(turns / 2) ** 2
+    return np.asarray(np.eye(3) + once * cross + twice * (cross @ cross))
 
 
 def _turned(rotation: Array, vectors: Array) -> Array:

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from elastogeo.errors import UnsupportedError
 from elastogeo.machine import Array, LoopFrames, Machine, Site, loop_frames
@@ -161,6 +160,8 @@ def _rotation_seen(frames: LoopFrames, situation: Situation) -> Array | float:
     about = situation.observations.direction[:, 3:]
     if not about.any():
         return 0.0
+    from scipy.spatial.transform import Rotation  # here: only a simulated sensor of angles needs it
+
     nominal = situation.frames
     tool = frames.tool.rotation @ nominal.tool.rotation.swapaxes(1, 2)
     workpiece = frames.workpiece.rotation @ nominal.workpiece.rotation.swapaxes(1, 2)

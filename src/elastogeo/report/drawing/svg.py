@@ -24,11 +24,11 @@ def drawn(picture: Picture) -> bytes:
         If matplotlib is not installed.
     """
     with needs_report_extra():
-        from elastogeo.report.drawing.style import house_style
+        from elastogeo.report.drawing.style import house_style, laid_out
     buffer = BytesIO()
     with house_style():
         unsaid = dict.fromkeys(("Date", "Creator", "Format", "Type"))
-        picture.draw().savefig(buffer, format="svg", metadata=unsaid)
+        laid_out(picture.draw()).savefig(buffer, format="svg", metadata=unsaid)
     return buffer.getvalue()
 
 
