@@ -67,19 +67,12 @@ def difference_quotients(sources: list[Source], test: MachineTest, observed: Obs
     values = np.zeros((len(sources), len(sources), len(STEPS), m))
     for k in range(len(sources)):
         values[k, k] = step[k] * STEPS[:, np.newaxis]
+    copies = np.tile(np.arange(m), len(sources) * len(STEPS))
     at_copies = {source: value.ravel() for source, value in zip(sources, values, strict=True)}
-    exact = exact_response(at_copies, test.machine, copies(observed, len(sources) * len(STEPS)))  # type: ignore[arg-type]
+    exact = exact_response(at_copies, test.machine, observed.at(copies))  # type: ignore[arg-type]
     up, down, half_up, half_down = np.moveaxis(exact.reshape(len(sources), len(STEPS), m), 1, 0)
     central, half = ((a - b).T / (2 * h) for a, b, h in ((up, down, step), (half_up, half_down, step / 2)))
     return np.asarray((4 * half - central) / 3)
-
-
-def copies(observed: Observations, times: int) -> Observations:
-    """The same readings several times, one copy after the other."""
-    by_reading = ("pose", "commands", "velocity", "acceleration", "direction", "wrench", "reading", "correction")
-    columns = {name: getattr(observed, name) for name in by_reading}
-    tiled = {n: np.tile(c, (times,) + (1,) * (c.ndim - 1)) for n, c in columns.items() if c is not None}
-    return replace(observed, **tiled, influences=())
 
 
 def linear_drive(source: Source, situation: Situation) -> float:

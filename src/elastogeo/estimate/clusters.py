@@ -52,7 +52,7 @@ def solve_by_run(runs: Sequence[Factor], labels: Sequence[str]) -> Solution:
     chosen = [select(run, labels) for run in runs]
     plain, split = solve(merge(*chosen)), _split(chosen)
     residuals = [run.z - run.R @ plain.values for run in chosen]
-    scores = np.array([share @ residual for share, residual in zip(split.shares, residuals, strict=True)])
+    scores = np.einsum("gki,gi->gk", split.shares, residuals)
     degrees, norms = split.degrees_of_freedom(), split.norms
     if (degrees <= 1).any():
         weak = ", ".join(label for label, degree in zip(labels, degrees, strict=True) if degree <= 1)
@@ -75,56 +75,56 @@ def runs_needed(runs: Sequence[Factor], labels: Sequence[str]) -> int | None:
 
 @dataclass(frozen=True, slots=True)
 class _Split:
-    """How runs share in an estimate.
+    """How the g runs share in an estimate of p parameters.
 
-    `roots[g]` is the triangle of run g over that of all, `shares[g]` the bread times the adjusted design of run g: what it
-    adds to the estimate, per residual.
+    Attributes
+    ----------
+    norms : array, shape (p,)
+        Of the columns over all runs.
+    roots : array, shape (g, p, p)
+        The triangle of each run over that of all.
+    shares : array, shape (g, p, p)
+        The bread times the adjusted design of each run: what it adds to the estimate, per residual.
+    alone : array of bool, shape (p,)
+        Which parameters hang on combinations that one run alone determines: no other run shows how they scatter.
     """
 
     norms: Array
-    whole: Array
-    roots: Sequence[Array]
-    shares: Sequence[Array]
+    roots: Array
+    shares: Array
+    alone: np.ndarray[tuple[int], np.dtype[np.bool_]]
 
     def degrees_of_freedom(self) -> Array:
-        """Of the variance of each parameter, shape (p,); 0 where it rests on one run alone."""
-        alone = np.any([_resting_on(root, self.whole) for root in self.roots], axis=0)
-        each = [_degrees_of_freedom(self.roots, [share[k] for share in self.shares]) for k in range(len(self.norms))]
-        return np.where(alone, 0.0, each)
+        """Satterthwaite's of the variance of each parameter, shape (p,), for independent readings of equal variance.
+
+        0 where it rests on one run alone.
+        """
+        across = (self.shares @ self.roots).swapaxes(0, 1)
+        own = np.sum(self.shares**2, axis=2).T
+        gram = own[:, :, np.newaxis] * np.eye(len(self.roots)) - across @ across.swapaxes(1, 2)
+        trace, square = np.trace(gram, axis1=1, axis2=2), np.sum(gram**2, axis=(1, 2))
+        return np.where(self.alone | (square == 0), 0.0, trace**2 / np.where(square > 0, square, 1.0))
 
 
 def _split(runs: Sequence[Factor]) -> _Split:
     every = merge(*runs)
-    whole = every.R / every.column_norms
-    roots = [solve_triangular(whole, (run.R / every.column_norms).T, trans="T").T for run in runs]
-    shares = [solve_triangular(whole, (_lifted(root) @ root).T) for root in roots]
-    return _Split(every.column_norms, whole, roots, shares)
-
-
-def _lifted(root: Array) -> Array:
-    """`(I - H)^(-1/2)` of one run in the space of its triangle; a combination that rests on it alone is left out."""
-    values, vectors, free = _apart(root)
+    size, norms = (len(runs), *every.R.shape), every.column_norms
+    whole = every.R / norms
+    scaled = np.vstack([run.R / norms for run in runs])
+    roots = solve_triangular(whole, scaled.T, trans="T").T.reshape(size)
+    # I - H of each run in the space of its triangle; what is zero in it rests on that run alone, and is left out
+    values, vectors = np.linalg.eigh(np.eye(len(whole)) - roots @ roots.swapaxes(1, 2))
+    free = values > _SINGULAR
     inverse = np.where(free, 1.0 / np.sqrt(np.where(free, values, 1.0)), 0.0)
-    return np.asarray((vectors * inverse) @ vectors.T)
+    lifted = (vectors * inverse[:, np.newaxis]) @ vectors.swapaxes(1, 2)
+    shares = _over(whole, lifted @ roots)
+    hanging = _over(whole, (vectors * ~free[:, np.newaxis]).swapaxes(1, 2) @ roots)
+    scatter = np.linalg.norm(solve_triangular(whole, np.eye(len(whole))), axis=1)
+    alone = np.any(np.linalg.norm(hanging, axis=2) > _HANGING * scatter, axis=0)
+    return _Split(norms, roots, shares, alone)
 
 
-def _apart(root: Array) -> tuple[Array, Array, np.ndarray[tuple[int], np.dtype[np.bool_]]]:
-    """Eigenvalues and vectors of `I - H` of one run, and which of them other runs share in."""
-    values, vectors = np.linalg.eigh(np.eye(len(root)) - root @ root.T)
-    return values, vectors, values > _SINGULAR
-
-
-def _resting_on(root: Array, whole: Array) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Which parameters hang on combinations that one run alone determines: no other run shows how they scatter."""
-    _, vectors, free = _apart(root)
-    part = solve_triangular(whole, root.T @ vectors[:, ~free])
-    size = np.linalg.norm(solve_triangular(whole, np.eye(len(whole))), axis=1)
-    return np.asarray(np.linalg.norm(part, axis=1) > _HANGING * size)
-
-
-def _degrees_of_freedom(roots: Sequence[Array], shares: Sequence[Array]) -> float:
-    """Satterthwaite's degrees of freedom of the variance of one parameter, for independent readings of equal variance."""
-    across = np.array([root.T @ share for root, share in zip(roots, shares, strict=True)])
-    gram = np.diag([float(share @ share) for share in shares]) - across @ across.T
-    square = float(np.sum(gram**2))
-    return float(np.trace(gram) ** 2 / square) if square > 0 else 0.0
+def _over(whole: Array, parts: Array) -> Array:
+    """`whole^-1 part^T` of each part, shape (g, p, p)."""
+    solved = solve_triangular(whole, parts.reshape(-1, len(whole)).T)
+    return np.asarray(solved.T.reshape(parts.shape).swapaxes(1, 2))
