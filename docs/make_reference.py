@@ -28,8 +28,8 @@ GROUPS = {
         "inspect_file", "example_test",
     ),
     "Ask": (
-        "identify", "explain", "diagnose", "what_if", "compare", "map_stiffness", "evaluate_static", "identify_drives",
-        "calibrate",
+        "identify", "explain", "diagnose", "what_if", "compare", "map_stiffness", "evaluate_static", "evaluate_positioning",
+        "identify_drives", "calibrate",
     ),
     "What comes back": ("Result", "Estimate", "MachineTest", "Machine"),
     "What may go wrong": ("ElastogeoError", "InputError", "UnsupportedError"),

@@ -14,7 +14,7 @@ from elastogeo.cli import main
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
-PAGES = ("tutorial.md", "drive.md", "ball-roller.md", "static.md", "ball-bar.md", "rotary-axes.md")
+PAGES = ("tutorial.md", "drive.md", "ball-roller.md", "static.md", "ball-bar.md", "rotary-axes.md", "positioning.md")
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -28,8 +28,8 @@ First steps:
 """
 
 ORDER = (
-    "new", "simulate", "identify", "diagnose", "compare", "whatif", "stiffness", "static", "drive", "record", "inspect",
-    "calibrate", "explain", "machines", "demo",
+    "new", "simulate", "identify", "diagnose", "compare", "whatif", "stiffness", "static", "positioning", "drive",
+    "record", "inspect", "calibrate", "explain", "machines", "demo",
 )  # fmt: skip
 """In which the help lists the commands; one that is not here comes last."""
 

@@ -30,6 +30,15 @@ from elastogeo.identification.model_choice.result import Candidate, ModelChoice
 from elastogeo.identification.model_choice.variable_compliance import VariableCompliance, gain_of
 from elastogeo.identification.nests.deviations import BallDeviations, ball_deviations
 from elastogeo.identification.physics import PHYSICALLY_CONSISTENT, Consistency, consistency
+from elastogeo.identification.positioning import (
+    ByTarget,
+    Contribution,
+    PositioningResults,
+    StandardValue,
+    by_target,
+    evaluate_positioning,
+    standard_values,
+)
 from elastogeo.identification.preference import moving_axes, retaining_order
 from elastogeo.identification.question import (
     confounding_of,
@@ -88,6 +97,7 @@ __all__ = [
     "Branch",
     "Budget",
     "BudgetLine",
+    "ByTarget",
     "Candidate",
     "Cartesian",
     "CartesianCompliance",
@@ -96,6 +106,7 @@ __all__ = [
     "Circularity",
     "ComparedForce",
     "Consistency",
+    "Contribution",
     "Diagnosis",
     "Difference",
     "DriveIdentification",
@@ -122,12 +133,14 @@ __all__ = [
     "OnAxisRecord",
     "Parameter",
     "Pattern",
+    "PositioningResults",
     "Principal",
     "Reciprocity",
     "Response",
     "RigTest",
     "RunSystem",
     "SetupDeflection",
+    "StandardValue",
     "StaticHysteresis",
     "StaticLine",
     "StaticResults",
@@ -144,6 +157,7 @@ __all__ = [
     "agreement",
     "ball_deviations",
     "branches_of",
+    "by_target",
     "calibrate",
     "calibrate_force",
     "calibrate_setup",
@@ -161,6 +175,7 @@ __all__ = [
     "effect",
     "effects",
     "effects_of",
+    "evaluate_positioning",
     "evaluate_static",
     "explain",
     "fitness",
@@ -182,6 +197,7 @@ __all__ = [
     "run_dispersion",
     "run_systems",
     "shared_harmonic",
+    "standard_values",
     "static_line",
     "strongest_harmonic",
     "systems_of",

@@ -176,8 +176,8 @@ def thermal_drift(known: KnownInfluence, _: MachineTest, systems: Systems) -> It
 
 def _measured(run: RunSystem) -> Array:
     """All that the sensor measured: what it would on a perfect machine, and the departure from it."""
-    nominal = run.observations.nominal
-    return run.reading if nominal is None else run.reading + run.without_own(nominal[:, np.newaxis])[:, 0]
+    seen = run.observations
+    return run.reading if seen.nominal is None else seen.reading + seen.nominal
 
 
 def _harmonic(order: int, wave: Callable[[Array], Array], run: RunSystem) -> Array:

@@ -11,7 +11,7 @@ from elastogeo.observe.instruments import instrument, instrument_named, instrume
 from elastogeo.observe.measurement import KnownInfluence, MachineTest, Question
 from elastogeo.observe.nests import BallMotion, SphereNest
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
-from elastogeo.observe.positioning import Approaches, Positioning, approaches
+from elastogeo.observe.positioning import Approaches, Positioning, approaches, distinct
 from elastogeo.observe.rollers.ball_roller import BallRoller, Pressed
 from elastogeo.observe.rollers.rig import Rig
 from elastogeo.observe.run import Run
@@ -59,6 +59,7 @@ __all__ = [
     "check_observations",
     "check_runs",
     "check_sees_twist",
+    "distinct",
     "force_from_pressure",
     "instrument",
     "instrument_named",
