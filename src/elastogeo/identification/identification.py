@@ -313,7 +313,7 @@ def _responses(test: MachineTest, systems: Systems, solution: Solution) -> tuple
     senses = {run.name: run.sense for run in test.runs}
     first: dict[tuple[float, int], RunSystem] = {}
     for run in systems.runs:
-        first.setdefault((run.force, senses[run.name]), run)
+        first.setdefault((run.force, senses.get(run.name, 1)), run)  # a part of a run, as a cycle, goes around nothing
     found = []
     for (force, _), run in sorted(first.items(), key=lambda item: item[0][0]):
         chosen = np.unique(np.linspace(0, len(run.rows) - 1, POSES_DRAWN).round().astype(int))

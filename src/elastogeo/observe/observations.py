@@ -60,7 +60,7 @@ class Observations:
     Attributes
     ----------
     run : str
-        Name of the run.
+        Name of the run; of a part of it that counts as a run, with the part behind a comma.
     force : float [N]
         Force level of the run.
     pose : array, shape (m,)
