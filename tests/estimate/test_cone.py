@@ -136,6 +136,41 @@ def test_the_constrained_estimate_has_parameters_that_obey_the_law(seed: int) ->
         assert found.outward @ combinations @ truth < 1e-6
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_the_depth_under_signs_is_the_least_of_their_ratios(seed: int) -> None:
+    """Uncorrelated: the nearest bound is that of the smallest value over its uncertainty."""
+    random = np.random.default_rng(seed)
+    deviations, values = 10.0 ** random.uniform(-9, -3, 5), 10.0 ** random.uniform(-9, -3, 5)
+    found = project(psd_cone(np.diag(deviations**2), np.eye(5), [np.array([[k]]) for k in range(5)]), values)
+    least = int(np.argmin(values / deviations))
+    assert found.depth == pytest.approx(values[least] / deviations[least], rel=1e-6, abs=1e-8)
+    assert_allclose(np.abs(found.shallow) * deviations, np.eye(5)[least], atol=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_depth_is_a_bound_that_holds(seed: int) -> None:
+    """Of a block of two, in any metric, every outward combination of one load is at least so deep: 2000 loads around."""
+    random = np.random.default_rng(seed)
+    root, covariance = random.standard_normal((2, 2)), random_covariance(random, 3)
+    matrix = 30 * root @ root.T
+    values = matrix[[0, 0, 1], [0, 1, 1]]
+    found = project(psd_cone(covariance, np.eye(3), [SYMMETRIC]), values)
+    angle = np.linspace(0, np.pi, 2000)
+    loads = np.array([np.cos(angle) ** 2, np.sin(2 * angle), np.sin(angle) ** 2]).T
+    depths = loads @ values / np.sqrt(np.einsum("ki,ij,kj->k", loads, covariance, loads))
+    assert found.inside
+    assert 0 < found.depth <= depths.min() * (1 + 1e-6)
+
+
+def test_there_is_no_depth_on_the_boundary_outside_or_under_equations() -> None:
+    assert project(frobenius(), np.array([4.0, 2.0, 1.0])).depth == pytest.approx(0, abs=1e-3)
+    assert project(frobenius(), np.array([4.0, 2.0, -1.0])).depth == pytest.approx(0, abs=1e-3)
+    missing = project(psd_cone(np.eye(2), np.eye(2), [np.array([[-1, 0], [1, -1]])]), np.array([1.0, 1.0]))
+    assert missing.depth == inf
+    mirrors = project(psd_cone(np.eye(4), np.eye(4), [PAIRED]), np.array([10.0, 1.0, 3.0, 10.0]))
+    assert mirrors.depth == pytest.approx(8)  # [10, 2; 2, 10]: its lowest eigenvalue; the equation has no depth
+
+
 @pytest.mark.parametrize("unit", [1e-3, 1e3, 1e6])
 @pytest.mark.parametrize("seed", range(4))
 def test_units_decide_nothing(unit: float, seed: int) -> None:

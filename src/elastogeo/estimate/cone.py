@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import sqrt
+from math import inf, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -137,6 +137,11 @@ class Projection:
         and `sqrt(distance_squared)` standard uncertainties above zero for the free estimate. Zero inside.
     inside : bool
         Whether the free estimate obeys the law itself; `values` are then its own.
+    depth : float
+        How deep the values lie in the cone, at least, in standard uncertainties: no combination of unit variance that the
+        law keeps from being positive is above minus this. Zero on the boundary; infinite where equations alone restrict.
+    shallow : array, shape (r,)
+        Coefficients of the combination to which that depth belongs, of unit variance, with either sign.
     """
 
     values: Array
@@ -144,6 +149,8 @@ class Projection:
     distance_squared: float
     outward: Array
     inside: bool
+    depth: float
+    shallow: Array
 
 
 def psd_cone(covariance: Array, combinations: Array, blocks: Sequence[Block]) -> PsdCone:
@@ -213,12 +220,15 @@ def project(cone: PsdCone, values: Array) -> Projection:
         columns, factors = _unit_effects(cone.effect, cone.free)
         rest, *_ = np.linalg.lstsq(columns, nearest - cone.effect @ parameters, rcond=_DEPENDENT)
         parameters += cone.free @ (factors * rest)
+    depth, shallow = _depth(cone, found.multipliers)
     return Projection(
         values=values.copy() if inside else cone.root @ nearest,
         parameters=parameters,
         distance_squared=0.0 if inside else distance**2,
         outward=solve_triangular(cone.root, outward, lower=True, trans="T"),
         inside=inside,
+        depth=size * depth,
+        shallow=solve_triangular(cone.root, cone.basis @ shallow, lower=True, trans="T"),
     )
 
 
@@ -302,6 +312,27 @@ def _unrestricted(block: _Block, parameters: int) -> Array:
 def _restriction(block: _Block, basis: Array) -> Array:
     """Effect, shape (m, n, n), of a block's face on the restricted directions."""
     return np.asarray(np.einsum("rm,rij,ia,jb->mab", basis, block.effect, block.face, block.face, optimize=True))
+
+
+def _depth(cone: PsdCone, multipliers: Sequence[Array]) -> tuple[float, Array]:
+    """How deep a point of the cone lies in it, at least, and the restricted direction of that, shape (m,).
+
+    The point is `A(Z)`. For every outward direction a of unit length S(a) is semidefinite, so that
+    `-a . A(Z) = tr(Z^1/2 S(a) Z^1/2)` is at least the norm of that matrix: at least the least singular value of the linear
+    map from a to it. Directions that equations alone restrict have no S and are left out. For signs it is the depth itself.
+    """
+    filled = [(block, Z) for block, Z in zip(cone.restrictions, multipliers, strict=True) if len(Z)]
+    if not filled:
+        return inf, np.zeros(cone.dimension)
+    U, sizes, _ = np.linalg.svd(np.hstack([block.reshape(cone.dimension, -1) for block, _ in filled]), full_matrices=False)
+    signed = U[:, sizes > _DEPENDENT * sizes.max()]
+    seen = []
+    for block, Z in filled:
+        values, vectors = np.linalg.eigh(Z)
+        root = vectors * np.sqrt(np.maximum(values, 0.0))
+        seen.append((root.T @ block @ root).reshape(cone.dimension, -1))
+    directions, depths, _ = np.linalg.svd(signed.T @ np.hstack(seen), full_matrices=False)
+    return float(depths[-1]), np.asarray(signed @ directions[:, -1])
 
 
 def _unit_effects(effect: Array, changes: Array) -> tuple[Array, Array]:

@@ -2,7 +2,7 @@
 semidefinite (a load never gains energy).
 
 A free estimate may violate that within its noise. `consistency` gives the estimate that does not, how far it is from the
-free one, and whether the data contradict physics beyond their uncertainty.
+free one, and whether the data confirm physics, contradict it, or cannot tell: what they do not contradict is not confirmed.
 
 An equivalent compliance is a sum over joints (`Confounding.stands_for`), so the law applies to the joints behind it and the
 sum inherits what is left of it: a sum of on-axis terms is not negative, a sum of cross terms may be.
@@ -13,9 +13,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isinf, sqrt
+from typing import Any
 
 import numpy as np
-from scipy.special import chdtri, ndtr, stdtr
+from scipy.special import chdtri, nctdtrinc, ndtr, stdtr, stdtrit
 
 from elastogeo.errors import InputError
 from elastogeo.estimate import (
@@ -37,19 +38,25 @@ from elastogeo.sources import Source
 PHYSICALLY_CONSISTENT = "physically consistent"
 
 CONSISTENT = "consistent"
-WITHIN_NOISE = "violated within noise"
 CONTRADICTED = "contradicted"
 NOT_TESTED = "not tested"
 
 NOTHING_RESTRICTED = "nothing restricted"
 FEW_DEGREES = "few degrees of freedom"
 BY_READING = "independent readings assumed"
+NEAR_LIMIT = "near the limit"
 
 LEVEL = 0.05
-"""Probability of calling data contradictory that obey physics, at most."""
+"""Probability of a false alarm, at most; half of it is that of confirming physics that is violated."""
+
+_SHOWN = 0.95
+"""Probability with which a violation must be found for the test to have been able to show it."""
 
 _LEAST = 0.05
 """Probability with which the true uncertainty is smaller than the least that its degrees of freedom allow."""
+
+_NEARLY = 2.0
+"""A sign is named as what is nearest to its limit if it is at most so many depths away from it: the depth is a bound."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,12 +66,13 @@ class Consistency:
     Attributes
     ----------
     state : str
-        `consistent`: joints can give the estimate itself; `violated within noise`; `contradicted`: beyond the uncertainty;
-        or `not tested`.
+        `consistent`: joints can give the estimate and all that its uncertainty leaves open; `contradicted`: they can give
+        none of that; or `not tested`.
     why : str
-        Why it was not tested: `nothing restricted` by physics that the test determines; `few degrees of freedom`, where the
-        violation is significant by the least uncertainty that they allow, and is not with what is known of the uncertainty;
-        or `independent readings assumed` by the uncertainty of a violation that would be significant. Else empty.
+        Why it was not tested: `nothing restricted` by physics that the test determines; `independent readings assumed` by
+        the uncertainty, which is then too small as a rule; `few degrees of freedom`, where a violation is significant by the
+        least uncertainty that they allow, and is not with what is known of the uncertainty; or `near the limit`: the
+        uncertainty holds values on both sides. Else empty.
     constrained : dict of str to float
         The nearest estimate, by name, that symmetric positive semidefinite joints can give.
     distance : float
@@ -86,6 +94,15 @@ class Consistency:
     outward : dict of str to float
         The combination that is most out of bounds: coefficient by name, so scaled that its standard uncertainty is 1. It is
         at most zero for all physical joints, and `distance` for the free estimate.
+    depth : float
+        Standard uncertainties, at least, that the nearest physical estimate is away from any that is not.
+    needed : float
+        Depth that confirms physics.
+    closest : str
+        The parameter that is nearest to its limit; empty if none is restricted by an inequality.
+    shows : dict of str to float
+        Of each parameter that no physical joints make negative: the value nearest to zero that would have contradicted
+        physics with a probability of 95 %.
     """
 
     state: str
@@ -99,6 +116,10 @@ class Consistency:
     p_negative: dict[str, float]
     violated: tuple[str, ...]
     outward: dict[str, float]
+    depth: float
+    needed: float
+    closest: str
+    shows: dict[str, float]
 
 
 def consistency(
@@ -121,8 +142,14 @@ def consistency(
     (Brunner, Dette and Munk, doi:10.1080/01621459.1997.10473671). With a covariance that is known but for one variance this
     is Perlman's bound.
 
-    A violation within noise must be so even by the least uncertainty that its degrees of freedom allow (95 %, chi-square).
-    If only the few degrees of freedom keep it from being significant, it was **not tested**: noise explains nothing there.
+    What is not contradicted is not confirmed. Physics is confirmed if every combination that it bounds is within its bound
+    by more than its uncertainty, one-sided at half the level: each is tested alone, since breaking any one breaks the law
+    (intersection-union test: Berger, doi:10.1080/00401706.1982.10487790). For signs alone this is that no 95 % interval
+    reaches zero. Equations, as of a cross term and its mirror that are both seen, cannot be confirmed so; they need not be
+    contradicted.
+
+    In between it was **not tested**, and a violation that only the few degrees of freedom keep from being significant, by
+    the least uncertainty that they allow (95 %, chi-square), is told from one that noise explains.
 
     Components that were not asked for restrict nothing, nor does a cross term without its mirror.
 
@@ -137,8 +164,7 @@ def consistency(
     correlated_as : array, shape (r, r), optional
         Covariance whose correlations measure the distance, where that of the solution is estimated as a whole, from runs.
     by_reading : bool
-        Whether the uncertainty assumes independent readings: it is then too small as a rule, so that a violation within it
-        is one within noise, and a greater one was not tested.
+        Whether the uncertainty assumes independent readings: it is then too small as a rule, so that nothing is tested.
     level : float
         Probability of a false alarm, at most.
 
@@ -159,7 +185,14 @@ def consistency(
     signs = _holm(p_negative)
     p_value = min(1.0, looks * min([p_joint, *signs.values()]))
     by_least = looks * min([p_joint_least, *_holm(p_negative_least).values()])
-    state, why = _state(cone, nearest.inside, p_value < level, by_least < level, by_reading)
+    needed = float(stdtrit(degrees, 1.0 - level / 2))
+    state, why = _state(
+        cone,
+        by_reading=by_reading,
+        contradicted=not nearest.inside and p_value < level,
+        in_doubt=not nearest.inside and by_least < level,
+        confirmed=cone.one_sided and nearest.depth > needed,
+    )
     return Consistency(
         state=state,
         why=why,
@@ -172,25 +205,30 @@ def consistency(
         p_negative=p_negative,
         violated=tuple(name for name, p in signs.items() if looks * p < level),
         outward={} if nearest.inside else _outward(nearest, solution),
+        depth=nearest.depth,
+        needed=needed,
+        closest=_closest(nearest, solution, p_negative) if cone.one_sided else "",
+        shows=_shows(solution, list(p_negative), level / looks),
     )
 
 
 def physically_consistent(
     consistent: Consistency, sources: Sequence[Source], found: Confounding, solution: Solution
 ) -> Check:
-    """The check of a verdict: passed where the estimate obeys physics, or fails to within its noise."""
+    """The check of a verdict: passed where the data confirm physics, failed where they contradict it, else not tested."""
     units = {source.name: source.unit for source in sources}
     uncertainty = dict(zip(solution.labels, map(float, solution.standard_uncertainty), strict=True))
     values = dict(zip(solution.labels, map(float, solution.values), strict=True))
-    negative = {
-        name: {
+
+    def facts_of(name: str) -> dict[str, Any]:
+        return {
             "value": values[name],
             "standard_uncertainty": uncertainty[name],
             "unit": units[name],
             "stands_for": tuple(found.stands_for(name)),
+            "shows": consistent.shows.get(name),
         }
-        for name in consistent.violated
-    }
+
     passed = None if consistent.state == NOT_TESTED else consistent.state != CONTRADICTED
     return Check(
         PHYSICALLY_CONSISTENT,
@@ -201,7 +239,10 @@ def physically_consistent(
             "distance": consistent.distance,
             "degrees_of_freedom": consistent.degrees_of_freedom,
             "p_value": consistent.p_value,
-            "negative": negative,
+            "negative": {name: facts_of(name) for name in consistent.violated},
+            "depth": consistent.depth,
+            "needed": consistent.needed,
+            "closest": {name: facts_of(name) for name in [consistent.closest] if name},
             "farthest": max(consistent.outward, key=lambda name: consistent.outward[name] * values[name], default=None),
         },
     )
@@ -272,15 +313,39 @@ def _least_variance(degrees: float) -> float:
     return 1.0 if isinf(degrees) else float(degrees / chdtri(degrees, _LEAST))
 
 
-def _state(cone: PsdCone, inside: bool, significant: bool, by_least: bool, by_reading: bool) -> tuple[str, str]:
+def _state(cone: PsdCone, *, by_reading: bool, contradicted: bool, in_doubt: bool, confirmed: bool) -> tuple[str, str]:
     """What is said, and why nothing can be."""
     if not cone.dimension:
         return NOT_TESTED, NOTHING_RESTRICTED
-    if inside:
-        return CONSISTENT, ""
-    if significant:
-        return (NOT_TESTED, BY_READING) if by_reading else (CONTRADICTED, "")
-    return (NOT_TESTED, FEW_DEGREES) if by_least else (WITHIN_NOISE, "")
+    if by_reading:
+        return NOT_TESTED, BY_READING
+    if contradicted:
+        return CONTRADICTED, ""
+    if in_doubt:
+        return NOT_TESTED, FEW_DEGREES
+    return (CONSISTENT, "") if confirmed else (NOT_TESTED, NEAR_LIMIT)
+
+
+def _closest(nearest: Projection, solution: Solution, never: Mapping[str, float]) -> str:
+    """The parameter that is nearest to its limit: to zero, or the greatest part of the combination that is nearest."""
+    ratios = dict(zip(solution.labels, solution.values / solution.standard_uncertainty, strict=True))
+    least = min(never, key=lambda name: ratios[name], default="")
+    if least and ratios[least] <= _NEARLY * nearest.depth:
+        return least
+    parts = np.abs(nearest.shallow) * solution.standard_uncertainty
+    cross = [k for k, name in enumerate(solution.labels) if name not in never] or range(len(parts))
+    return solution.labels[max(cross, key=lambda k: parts[k])]
+
+
+def _shows(solution: Solution, never: Sequence[str], level: float) -> dict[str, float]:
+    """Where the sign test of each, at its share of the level, has the power that is wanted (noncentral t)."""
+    found = {}
+    for name in never:
+        k = solution.labels.index(name)
+        degrees = float(solution.degrees_of_freedom[k])
+        critical = float(stdtrit(degrees, 1.0 - level / len(never)))
+        found[name] = -float(nctdtrinc(degrees, 1.0 - _SHOWN, critical) * solution.standard_uncertainty[k])
+    return found
 
 
 def _holm(p_values: Mapping[str, float]) -> dict[str, float]:

@@ -31,8 +31,9 @@ models : null, or {supported, explained, alike, places, off_level, tested, unsee
     models that this test cannot distinguish; `p_value` says how likely as much seems missing from a model if nothing is;
     `off_level` is null, or {force_N, size_um, p_value} of a level that does not follow the others
 consistency : null, or {state, why, constrained: {name: value}, distance, dimension, degrees_of_freedom, p_value, p_joint,
-    p_negative: {name: p}, violated: [name], outward: {name: coefficient}}, whether the compliances agree with physics; the
-    sentence is that of the check `physically consistent`
+    p_negative: {name: p}, violated: [name], outward: {name: coefficient}, depth, needed, closest, shows: {name: value}},
+    whether the compliances agree with physics; the sentence is that of the check `physically consistent`; `depth` is null
+    where equations alone restrict
 repeats : null, or {levels: {level: runs}, combinations, mean, combination_std, estimate, standard_uncertainty,
     degrees_of_freedom, note}; from mean to degrees_of_freedom they are {name: number}; `estimate` is from all repeated
     runs together, `standard_uncertainty` is its own, from the scatter of the runs
@@ -237,6 +238,10 @@ def _consistency(found: Consistency) -> dict[str, Any]:
         "p_negative": found.p_negative,
         "violated": found.violated,
         "outward": found.outward,
+        "depth": found.depth,
+        "needed": found.needed,
+        "closest": found.closest,
+        "shows": found.shows,
     }
 
 

@@ -203,17 +203,15 @@ def above_resolution(facts: Facts, passed: bool | None) -> str:
 
 @says("physically consistent")
 def physically_consistent(facts: Facts, passed: bool | None) -> str:
-    """How far the estimate is from what joints can give, and whether noise explains it."""
-    if facts["state"] == "consistent":
-        return "Joints that are symmetric and never gain energy can give this estimate."
+    """Whether joints can give the estimate: confirmed, contradicted, or what keeps the test from telling."""
+    if passed:
+        return "Joints that are symmetric and never gain energy can give this estimate, and all that its uncertainty holds."
     if "distance" not in facts or facts["why"] in _NOT_TESTED:
         return f"Not tested: {_NOT_TESTED.get(facts['why'], facts['why'])}."
     outside = f"{_units(facts['distance'])} outside what joints that are symmetric and never gain energy can give"
     if passed is None:
-        return f"Not tested: the estimate is {outside}, {_in_doubt(facts)}"
+        return f"Not tested: {_undecided(facts, outside)}"
     p = probability(facts["p_value"])
-    if passed:
-        return f"Noise explains that the estimate is {outside} (p = {p}). Use the constrained values."
     p = p if p.startswith("<") else f"= {p}"
     named = "".join(f" {_negative(name, found)}" for name, found in facts["negative"].items())
     named = named or f" {facts['farthest']} is larger than the compliances of the same joints along one load allow."
@@ -228,21 +226,46 @@ def _units(distance: float) -> str:
     return f"{shown} standard uncertainties"
 
 
-def _in_doubt(facts: Facts) -> str:
+def _undecided(facts: Facts, outside: str) -> str:
+    """Why the test cannot tell, and what would."""
     if facts["why"] == "independent readings assumed":
-        return "but that uncertainty assumes independent readings. Repeat the runs."
+        where = f"the estimate is {outside}, but that" if facts["distance"] else "the"
+        return f"{where} uncertainty assumes independent readings. Repeat the runs."
+    if facts["why"] == "few degrees of freedom":
+        return (
+            f"the estimate is {outside}, but with {facts['degrees_of_freedom']:.2g} degrees of freedom the uncertainty is "
+            f"not known well enough to say whether noise explains it. Repeat the runs."
+        )
+    use = " Use the constrained values." if facts["distance"] else ""
+    if not facts["closest"]:
+        return f"cross terms agree with their mirrors; no compliance that a load causes along itself was seen.{use}"
+    ((name, found),) = facts["closest"].items()
+    if found["shows"] is None:
+        return (
+            f"{name} is, within its uncertainty, the largest that the compliances of the same joints along one load allow. "
+            f"That is no fault.{use}"
+        )
+    unit = display_unit(found["unit"], max(abs(found["value"]), found["standard_uncertainty"]))
+    value, uncertainty, shows = (found[key] * unit.factor for key in ("value", "standard_uncertainty", "shows"))
     return (
-        f"but with {facts['degrees_of_freedom']:.2g} degrees of freedom the uncertainty is not known well enough to say "
-        f"whether noise explains it. Repeat the runs."
+        f"{_sum(name, found)} is too close to zero to show that it is positive, {significant(value, 2)} {unit.name} with a "
+        f"standard uncertainty of {significant(uncertainty, 2)}. That is no fault; below {significant(shows, 2)} it would "
+        f"have been found as one.{use}"
     )
 
 
 def _negative(name: str, found: Mapping[str, Any]) -> str:
     unit = display_unit(found["unit"], found["value"])
     value, uncertainty = found["value"] * unit.factor, found["standard_uncertainty"] * unit.factor
+    return (
+        f"{_sum(name, found)} is {significant(value)} {unit.name} with a standard uncertainty of "
+        f"{significant(uncertainty, 2)}."
+    )
+
+
+def _sum(name: str, found: Mapping[str, Any]) -> str:
     others = [other for other in found["stands_for"] if other != name]
-    what = f" (the sum with {', '.join(others)})" if others else ""
-    return f"{name}{what} is {significant(value)} {unit.name} with a standard uncertainty of {significant(uncertainty, 2)}."
+    return f"{name} (the sum with {', '.join(others)})" if others else name
 
 
 @says("model adequate")
