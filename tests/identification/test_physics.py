@@ -158,17 +158,17 @@ def test_physics_is_confirmed_where_no_interval_reaches_zero(
 
 
 def test_what_the_test_would_have_shown_is_shown_so_often(planar: tuple[tuple[Source, ...], Confounding]) -> None:
-    """C_CCY at the value that is named, 4 degrees of freedom: called in 95 % of 300 draws, to within 3 sigma (3.8 %)."""
+    """C_CCY at the value that is named, 4 degrees of freedom: called in 95 % of 100 draws, to within 3 sigma (6.5 %)."""
     sources, found = planar
     uncertainty = np.array((1e-7, 1e-8, 1e-7, 1e-12, 1e-12, 1e-11))
     physical = dict(zip(SIX, (7e-5, 0.0, 6e-5, 0.0, 0.0, 0.0), strict=True))
     at = consistency(sources, found, estimate(physical, tuple(uncertainty), 4.0)).shows["C_CCY"]
     random, called = np.random.default_rng(2), 0
-    for _ in range(300):
+    for _ in range(100):
         drawn = physical | {"C_CCY": at + 1e-11 * random.standard_normal()}
         known = np.append(uncertainty[:-1], 1e-11 * np.sqrt(random.chisquare(4) / 4))
         called += "C_CCY" in consistency(sources, found, estimate(drawn, tuple(known), 4.0)).violated
-    assert called / 300 == pytest.approx(0.95, abs=0.038)
+    assert called / 100 == pytest.approx(0.95, abs=0.065)
 
 
 def test_a_coupling_as_large_as_joints_allow_is_not_confirmed(planar: tuple[tuple[Source, ...], Confounding]) -> None:
