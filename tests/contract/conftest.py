@@ -26,6 +26,7 @@ from elastogeo.observe import (
     instrument_named,
     instruments,
 )
+from elastogeo.observe.static_loads.joint_probe import JointProbe
 from elastogeo.observe.static_loads.probes import DisplacementProbes
 from elastogeo.observe.static_loads.sensor_frame import Sensor, SensorFrame
 from elastogeo.observe.static_loads.static_force import StaticForce
@@ -145,6 +146,13 @@ def sensor_frame(arrangement: Arrangement) -> Setup:
     return SensorFrame(sensors, (1.0, -2.0, 1.0), arrangement.centre, (15.0, -10.0, -40.0), in_workpiece=True)
 
 
+def joint_probe(arrangement: Arrangement) -> Setup:
+    """Across two joints where there are two to one side or the other, off the origin of the first one's carriage."""
+    axes = parse_topology(arrangement.topology).axes
+    across = axes[:2][::-1] if "S" not in axes[:2] else axes[:1]
+    return JointProbe(across, (1.0, -0.4, 0.3), (30.0, -20.0, 55.0), None, arrangement.centre, (10.0, 0.0, -20.0))
+
+
 def sphere_nest(arrangement: Arrangement) -> Setup:
     """Preloaded; the rotary axes that turn in an arrangement turn here too, all the way."""
     start = {axis: arrangement.centre.get(axis, 0.0) for axis in arrangement.rotary_turn}
@@ -157,6 +165,7 @@ SETUPS: dict[str, Callable[[Arrangement], Setup]] = {
     "ball-bar": ball_bar,
     "ball-roller": ball_roller,
     "dial-gauge": dial_gauge,
+    "joint-probe": joint_probe,
     "loaded-ball-bar": loaded_ball_bar,
     "positioning": positioning,
     "displacement-probes": displacement_probes,

@@ -16,6 +16,7 @@ from elastogeo.observe.rollers.ball_roller import BallRoller, Pressed
 from elastogeo.observe.rollers.rig import Rig
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
+from elastogeo.observe.static_loads.joint_probe import JointProbe
 from elastogeo.observe.static_loads.probes import DisplacementProbes
 from elastogeo.observe.static_loads.sensor_frame import Sensor, SensorFrame, sensitivities
 from elastogeo.observe.static_loads.sensor_twist import SensorTwist, check_sees_twist, sensor_twist
@@ -35,6 +36,7 @@ __all__ = [
     "DisplacementProbes",
     "ForceInfluence",
     "Imperfection",
+    "JointProbe",
     "KnownInfluence",
     "LoadedBallBar",
     "MachineTest",

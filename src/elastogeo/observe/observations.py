@@ -99,6 +99,9 @@ class Observations:
         the velocity says it.
     nominal : array, shape (m,) [mm or rad], or None
         What the instrument measures on a perfect machine, where the reading is the departure from it; None for nothing.
+    span : tuple of str, or None
+        The joints across which the instrument reads, where its two ends are not tool and workpiece: it sees the twists of
+        these joints and of no other place, while the wrench loads them all. None for the whole loop.
     """
 
     run: str
@@ -119,10 +122,15 @@ class Observations:
     influences: tuple[ObservedInfluence, ...] = ()
     sense: Array | None = None
     nominal: Array | None = None
+    span: tuple[str, ...] | None = None
 
     def __len__(self) -> int:
         """How many readings."""
         return len(self.reading)
+
+    def sees(self, axis: str) -> bool:
+        """Whether a twist at a joint, or at an end of the loop (no axis), moves what the instrument reads."""
+        return self.span is None or axis in self.span
 
     def with_reading(self, reading: Array) -> Observations:
         """The same observations with other readings, shape (m,)."""

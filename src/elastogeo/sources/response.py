@@ -139,7 +139,7 @@ def exact_response(values: Mapping[Source, float], machine: Machine, observation
     """Readings, shape (m,) [mm or rad], that parameter values cause, by exact products of transforms with finite rotations.
 
     The loads are those of the nominal pose; the deflections and errors they cause may have any size. It is the simulator,
-    and the judge of `linear_response`.
+    and the judge of `linear_response`. An instrument across a span of joints sees the loop as if it were rigid elsewhere.
     """
     situation = Situation(machine, observations)
     twists = site_twists(values.items(), situation)
@@ -170,9 +170,11 @@ def _rotation_seen(frames: LoopFrames, situation: Situation) -> Array | float:
 
 
 def site_twists(values: Iterable[tuple[Source, float]], situation: Situation) -> dict[Site, Array]:
-    """Twist, shape (m, 6) [mm, rad], that parameter values cause at each site."""
+    """Twist, shape (m, 6) [mm, rad], that parameter values cause at each site that the instrument sees."""
     twists: dict[Site, Array] = {}
     for source, value in values:
+        if source.site[0] != "reading" and not situation.observations.sees(source.site[1]):
+            continue
         twist = twists.setdefault(source.site, np.zeros((len(situation.observations), 6)))
         twist[:, source.component] += value * source.driver(situation)
     return twists

@@ -39,10 +39,13 @@ class Situation:
     def sensitivity(self, site: Site) -> Array:
         """Change of each reading per unit of each twist component at a site, shape (m, 6): `b^T J`.
 
-        What acts on the reading itself (the length of a bar) has one component, the first.
+        What acts on the reading itself (the length of a bar) has one component, the first. Outside the span of the
+        instrument it is zero.
         """
         if site[0] == "reading":
             return np.ones((len(self.observations), 1))
+        if not self.observations.sees(site[1]):
+            return np.zeros((len(self.observations), 6))
         return self._at("direction", site)
 
     def load(self, axis: str) -> Array:

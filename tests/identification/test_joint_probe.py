@@ -1,0 +1,159 @@
+"""A probe across one joint tells what no test between tool and workpiece can: ranks of `reference/planning.md`.
+
+Those figures were derived twice, by another program and by exact elimination; here the tests are stacked as they would be
+made: forces along X, Y, Z at random places of the travel, three probes at the tool, then a probe across carriage X.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from elastogeo.errors import InputError
+from elastogeo.estimate import Confounding, confounding, factor_blocks
+from elastogeo.formats import find_machine
+from elastogeo.identification import identify
+from elastogeo.machine import Array, Machine
+from elastogeo.observe import Imperfection, JointProbe, MachineTest, Observations, Question, Run, Sensor, SensorFrame, Setup
+from elastogeo.sources import (
+    column_ceilings,
+    design_rows,
+    exact_response,
+    linear_response,
+    select_sources,
+    simulate,
+)
+
+PLACES = 40
+FORCE = 500.0
+AXES = np.eye(3)
+TRAVEL = {"X": (-400, 400), "Y": (-400, 400), "Z": (-300, 300), "A": (-1.5, 1.5), "C": (-3.0, 3.0)}
+
+
+@cache
+def hermle() -> Machine:
+    return find_machine("hermle_c50", Path())
+
+
+def static_test(setup: Setup, seed: int) -> list[Observations]:
+    """A run at each of some random places: forces along X, Y and Z."""
+    random = np.random.default_rng(seed)
+    runs = []
+    for place in range(PLACES):
+        at = {axis.lower(): np.full(3, random.uniform(*TRAVEL[axis])) for axis in TRAVEL}
+        forces = {f"force_{axis}": FORCE * row for axis, row in zip("xyz", AXES, strict=True)}
+        readings = {name: np.zeros(3) for name in setup.quantities if name.startswith("displacement")}
+        runs.append(setup.observe(hermle(), Run(f"{place}", {**at, **forces, **readings})))
+    return runs
+
+
+@cache
+def at_the_tool() -> tuple[Observations, ...]:
+    return tuple(static_test(SensorFrame(tuple(Sensor((0, 0, 0), tuple(row)) for row in AXES)), 1))
+
+
+def across_x(directions: Sequence[Array], point: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> list[Observations]:
+    return [run for row in directions for run in static_test(JointProbe(("X",), tuple(row), point), 2)]
+
+
+def found(observations: Sequence[Observations]) -> Confounding:
+    sources = select_sources(hermle(), ["C_*"])
+    factor = factor_blocks([s.name for s in sources], (design_rows(sources, hermle(), run) for run in observations))
+    ceilings = np.linalg.norm([column_ceilings(sources, hermle(), run) for run in observations], axis=0)
+    return confounding(factor, None, ceilings)
+
+
+@cache
+def with_a_probe() -> Confounding:
+    return found([*at_the_tool(), *across_x(AXES[:1])])
+
+
+def test_static_forces_and_probes_at_the_tool_see_91_of_180() -> None:
+    tool = found(at_the_tool())
+    assert (len(tool.labels), tool.rank) == (180, 91)
+    (group,) = [group for group in tool.groups if "C_XXX" in group]
+    assert {"C_XXX", "C_XXY", "C_XXZ"} <= set(group)
+
+
+def test_a_probe_across_x_at_its_origin_makes_the_compliance_of_x_exact() -> None:
+    """96: a column for each of five loads of X; with one tool on the spindle's axis none of them is a moment about z."""
+    result = with_a_probe()
+    assert result.rank == 96
+    assert result.stands_for("C_XXX") == {"C_XXX": 1.0}
+    (rest,) = [label for label in result.retained if "C_XXY" in result.stands_for(label)]
+    assert {"C_XXY", "C_XXZ", "C_XXA"} <= set(result.stands_for(rest))
+    assert "C_XXX" not in result.stands_for(rest)
+
+
+def test_three_directions_see_106() -> None:
+    assert found([*at_the_tool(), *across_x(AXES)]).rank == 106
+
+
+def test_at_another_point_the_rotations_of_x_enter() -> None:
+    result = found([*at_the_tool(), *across_x(AXES[:1], (0.0, 70.0, 50.0))])
+    assert result.rank > 91
+    assert "C_XXY" in result.stands_for("C_XXX")
+
+
+def test_six_readings_across_x_see_its_whole_twist() -> None:
+    points = [(0, 0, 0), (0, 0, 0), (0, 0, 0), (0, 90, 0), (0, 0, 90), (90, 0, 0)]
+    rows = [AXES[0], AXES[1], AXES[2], AXES[0], AXES[1], AXES[2]]
+    # rotation about z moves x at (0, 90, 0), about x y at (0, 0, 90), about y z at (90, 0, 0)
+    more = [run for row, point in zip(rows, points, strict=True) for run in across_x([row], point)]
+    assert found([*at_the_tool(), *more]).rank == 116
+
+
+def test_one_probe_finds_the_joint_that_a_test_at_the_tool_finds_in_a_sum() -> None:
+    """Two heights of Z, so that the lever of the force changes and C_XBX is told from C_XXX."""
+    machine = hermle()
+    truth = {"C_XXX": 6e-5, "C_XBX": 1e-8, "C_XXY": 4e-5, "C_BBX": 1e-10, "C_XXA": 2e-5}
+    ramp = {"force": np.tile(np.linspace(0.0, FORCE, 12), 2)}
+    runs = tuple(Run(f"{z} {k}", {**ramp, "z": np.full(24, float(z))}) for z in (-150, 150) for k in range(3))
+    question = Question(("C_XXX", "C_XBX", "E_R0"))
+    planned = MachineTest("probe", machine, JointProbe(("X",), (1, 0, 0), direction=(1, 0, 0)), runs, question)
+    result = identify(simulate(planned, truth, Imperfection(noise=5e-5), seed=4))
+    for name in ("C_XXX", "C_XBX"):
+        low, high = result[name].interval
+        assert low <= truth[name] <= high
+        assert high - low < 0.1 * truth[name]
+
+
+def test_bad_set_ups_are_refused() -> None:
+    columns = {"force": np.ones(3), "displacement": np.zeros(3)}
+    good = JointProbe(("X",), (1, 0, 0), direction=(1, 0, 0))
+    assert good.observe(hermle(), Run("one", columns)).span == ("X",)
+    with pytest.raises(InputError, match=r"reads across Y Z; from the first .* has Y X Z: name each of these once"):
+        replace(good, across=("Y", "Z")).observe(hermle(), Run("one", columns))
+    with pytest.raises(InputError, match="has no axis 'B'"):
+        replace(good, across=("B",)).observe(hermle(), Run("one", columns))
+    with pytest.raises(InputError, match=r'the probe reads across no joint; say across = \["X"\]'):
+        replace(good, across=())
+    with pytest.raises(InputError, match="the direction of the sensor is"):
+        replace(good, sensor=(0, 0, 0))
+    with pytest.raises(InputError, match="the point of the probe is"):
+        replace(good, point=(0.0, float("nan"), 0.0))
+    with pytest.raises(InputError, match="displacement reaches 60 mm; are they micrometres"):
+        good.observe(hermle(), Run("one", {**columns, "displacement": np.full(3, 60.0)}))
+
+
+@pytest.mark.parametrize("across", [("X",), ("X", "Y"), ("A", "Y", "X")], ids="".join)
+def test_only_the_joints_of_the_span_move_the_reading(across: tuple[str, ...]) -> None:
+    """Both the linear model and the exact one: no other joint, no offset of an end."""
+    machine = hermle()
+    columns = {"force_x": np.full(2, 200.0), "force_y": np.full(2, -90.0), "force_z": np.full(2, 50.0)}
+    setup = JointProbe(across, (1, 2, -1), (40, 10, -30), pose={"A": 0.4, "C": 1.0, "Z": 60.0})
+    observed = setup.observe(machine, Run("one", {**columns, "displacement": np.zeros(2)}))
+    moving = set()
+    for name in ("C_XXX", "C_YXY", "C_YYZ", "C_ZZA", "C_XXC", "E_Xt0", "E_Zw0", "E_B(0)A"):
+        (source,) = select_sources(machine, [name])
+        linear = linear_response({source: 1e-5}, machine, observed)
+        exact = exact_response({source: 1e-5}, machine, observed)
+        assert np.abs(linear - exact).max() <= 1e-3 * np.abs(linear).max() + 1e-13
+        if linear.any():
+            moving.add(source.site[1])
+    assert moving == set(across)
