@@ -81,6 +81,19 @@ def test_a_calibration_says_what_friction_and_a_bend_do(elastogeo, tmp_path):
     assert "The readings bend" in elastogeo("calibrate", bent)[1]
 
 
+def test_dials_at_ball_and_roller_calibrate_a_ball_roller_device(elastogeo, tmp_path):
+    """Tables 6.5, 6.6 of the thesis: the machine's increments and what a ball-roller test is to subtract."""
+    dials = Path(__file__).parents[2] / "examples" / "indicator-test" / "dials.csv"
+    code, out, err = elastogeo("calibrate", dials, "--resolution-um", "1", "-o", tmp_path / "rollers.toml", "--json")
+    assert (code, err) == (0, "")
+    found = json.loads(out)
+    increments = [one["stiffness_N_per_um"] for one in found["springs"]["machine"]["increments"]]
+    assert increments == pytest.approx([10.9, 15.0, 14.7, 14.6], abs=0.06)
+    rollers = read_calibration(tmp_path / "rollers.toml").setup_compliance
+    assert [1e-3 / value for value in rollers.compliance] == pytest.approx([18.9, 17.3, 16.3, 15.8, 14.5])
+    assert found["setup"]["standard_uncertainty_um_per_N"] == pytest.approx(rollers.standard_uncertainty * 1000)
+
+
 def test_what_is_no_calibration_is_refused(elastogeo, readings, tmp_path):
     other = written(tmp_path / "o.csv", angle_deg=PRESSURE, radial_um=PRESSURE)
     code, out, err = elastogeo("calibrate", other)

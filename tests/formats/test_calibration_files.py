@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from elastogeo.drive import SetupCompliance
 from elastogeo.errors import FormatError
 from elastogeo.formats import (
     CalibrationDocument,
@@ -16,9 +17,12 @@ from elastogeo.formats import (
     example_test,
     read_calibration,
     read_test,
+    write_calibration,
 )
 from elastogeo.identification.calibrations import calibrate_force
-from elastogeo.observe import About, Calibration, LoadedBallBar
+from elastogeo.observe import About, BallRoller, Calibration, LoadedBallBar
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 HEAD = 'schema = "elastogeo.calibration/1"\n'
 FORCE = Calibration((0.4, 6.0), (36.4, 741.7), (0.8, 1.1), -0.25, 12.0, 0.002, 50.0)
@@ -87,3 +91,22 @@ def test_what_is_no_calibration_is_refused(tmp_path: Path) -> None:
     gauge.write_text(f"{HEAD}[force]\npressure_bar = [1, 6]\nforce_N = [1]\n")
     with pytest.raises(FormatError, match=r"gauge\.toml: force: a force calibration needs at least two pressures"):
         read_test(folder)
+
+
+def test_a_ball_roller_test_names_the_indicator_test_of_its_set_up(tmp_path: Path) -> None:
+    rollers = SetupCompliance(compliance=(5.3e-5, 6.9e-5), engagement=(0.04, 0.2), standard_uncertainty=6e-7)
+    folder = tmp_path / "t"
+    shutil.copytree(EXAMPLES / "ball-roller", folder)
+    write_calibration(folder / "rollers.toml", rollers=rollers)
+    assert read_calibration(folder / "rollers.toml").setup_compliance == rollers
+    text = (folder / "test.toml").read_text()
+    text = text.replace("[setup]\n", '[setup]\ncalibration = "rollers.toml"\n', 1)
+    (folder / "test.toml").write_text(text)
+    with pytest.raises(FormatError, match=r"rollers\.toml: gives the set-up's compliance, and the test gives \[setup"):
+        read_test(folder)
+    start = text.index("[setup.setup]")
+    end = text.index("[", start + 20 + text[start + 20 :].index("\n\n"))
+    (folder / "test.toml").write_text(text[:start] + text[end:])
+    setup = read_test(folder).setup
+    assert isinstance(setup, BallRoller)
+    assert setup.setup == rollers

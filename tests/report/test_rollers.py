@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from elastogeo import calibrate, read_run
 from elastogeo.identification import StiffnessMap
 from elastogeo.report import View, view_of
 from elastogeo.report.drawing.svg import drawn
 from studies.roller_samples import Mapped
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 @pytest.fixture(scope="module")
@@ -87,3 +91,26 @@ def test_the_document_holds_what_the_figures_show(view) -> None:
     for entry in rig["directions"]:
         assert entry["predicted_um_per_N"] == pytest.approx(entry["without_um_per_N"] + entry["rig_um_per_N"])
     assert {entry["column"] for entry in entries["dynamometer"]["runs"]} == {"force_x", "force_y"}
+
+
+def test_the_indicator_test_shows_its_tables_and_what_to_use() -> None:
+    """Tables 6.5 and 6.6 of the thesis, from its readings."""
+    view = view_of(calibrate(read_run(EXAMPLES / "indicator-test" / "dials.csv").columns, resolution=1e-3))
+    assert view.sentence.startswith(
+        "At 200 µm the machine gives way by 111 µm (55.5 %), ball and roller bearing by 89 µm (44.5 %)"
+    )
+    deflections, secants, increments = view.tables
+    assert deflections.rows[-1] == ("200", "1290", "3", "86", "89", "111", "55.5")
+    assert [row[0] for row in secants.rows] == ["40", "80", "120", "160", "200"]
+    assert secants.rows[0][1] == "∞"
+    assert [float(row[4].split()[0]) for row in secants.rows] == pytest.approx([6.3, 8.3, 10.1, 11.1, 11.6], abs=0.05)
+    assert [float(row[2].split()[0]) for row in increments.rows] == pytest.approx([10.9, 15.0, 14.7, 14.6], abs=0.06)
+    assert (view.values[0].name, view.values[0].value.split()[0]) == ("machine, increment", "14.57")
+    assert not view.document["springs"]["ball"]["secants"][0]["stiffness_N_per_um"]
+    assert "machine, increment" in drawn(view.picture).decode()
+
+
+def test_nothing_has_an_interval_where_nothing_is_known_of_the_dials() -> None:
+    view = view_of(calibrate(read_run(EXAMPLES / "indicator-test" / "dials.csv").columns))
+    assert "±" not in "".join(value.value for value in view.values)
+    assert dict(view.head)["Resolution"] == "not stated"

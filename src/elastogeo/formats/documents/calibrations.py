@@ -1,4 +1,4 @@
-"""Calibration files: what `elastogeo calibrate` found of a bar, for test files to name: `calibration = "gauge.toml"`."""
+"""Calibration files: what `elastogeo calibrate` found, for test files to name: `calibration = "gauge.toml"`."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from math import inf, isfinite
 from pathlib import Path
 from typing import Any
 
+from elastogeo.drive import SetupCompliance
 from elastogeo.errors import FormatError
 from elastogeo.estimate import Estimate
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
@@ -34,7 +35,7 @@ class DeflectionDocument:
 
 @dataclass(frozen=True, slots=True)
 class CalibrationDocument:
-    """What a calibration file says: the force, the set-up's deflection, or both.
+    """What a calibration file says: the force of a bar, its set-up's deflection, or both; or a ball-roller's set-up.
 
     Attributes
     ----------
@@ -42,6 +43,8 @@ class CalibrationDocument:
     name : str
     force : Calibration or None
     setup_deflection : DeflectionDocument or None
+    setup_compliance : SetupCompliance or None
+        Of ball and roller bearing.
     about : About
     """
 
@@ -49,6 +52,7 @@ class CalibrationDocument:
     name: str = ""
     force: Calibration | None = None
     setup_deflection: DeflectionDocument | None = None
+    setup_compliance: SetupCompliance | None = None
     about: About = field(default_factory=About)
 
 
@@ -64,8 +68,8 @@ def read_calibration(path: str | Path) -> CalibrationDocument:
     table = read_document(path)
     check_schema(table, SCHEMA, str(path))
     document = build(CalibrationDocument, table, str(path))
-    if document.force is None and document.setup_deflection is None:
-        raise FormatError(f"{path}: holds no calibration; write a table [force] or [setup_deflection]")
+    if document.force is None and document.setup_deflection is None and document.setup_compliance is None:
+        raise FormatError(f"{path}: holds no calibration; write a table [force], [setup_deflection] or [setup_compliance]")
     return document
 
 
@@ -94,6 +98,10 @@ def with_calibration(setup: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     given = [key for key in setup if key.startswith("setup_deflection")]
     if given and "setup_deflection" in tables:
         raise FormatError(f"{folder / named}: gives the deflection of the set-up, and the test gives {given[0]}; keep one")
+    if "setup_compliance" in tables:
+        if "setup" in setup:
+            raise FormatError(f"{folder / named}: gives the set-up's compliance, and the test gives [setup.setup]; keep one")
+        entries["setup"] = tables["setup_compliance"]
     for key, value in tables.get("setup_deflection", {}).items():
         name = next(name for name in _OF_SETUP if key == name or key.startswith(f"{name}_"))
         entries[_OF_SETUP[name] + key.removeprefix(name)] = value
@@ -117,11 +125,23 @@ def calibration_text(document: CalibrationDocument) -> str:
         lines += ["", "[setup_deflection]", f"value_mm_per_bar = {post.value!r}"]
         lines += _unless(post.standard_uncertainty, "standard_uncertainty_mm_per_bar", 0.0)
         lines += _unless(post.degrees_of_freedom, "degrees_of_freedom", inf)
+    if document.setup_compliance is not None:
+        rollers = document.setup_compliance
+        lines += ["", "[setup_compliance]", f"engagement_mm = {list(rollers.engagement)}"]
+        lines.append(f"compliance_mm_per_N = {list(rollers.compliance)}")
+        lines += _unless(rollers.standard_uncertainty or 0.0, "standard_uncertainty_mm_per_N", 0.0)
     about = [f"{key} = {_text(value)}" for key in About.__slots__ if (value := getattr(document.about, key))]
     return "\n".join([*lines, *(["", "[about]", *about] if about else []), ""])
 
 
-def write_calibration(path: str | Path, force: Calibration | None, setup: Estimate | None = None, name: str = "") -> Path:
+def write_calibration(
+    path: str | Path,
+    force: Calibration | None = None,
+    setup: Estimate | None = None,
+    name: str = "",
+    *,
+    rollers: SetupCompliance | None = None,
+) -> Path:
     """Write a calibration file that test files can name.
 
     Parameters
@@ -132,6 +152,8 @@ def write_calibration(path: str | Path, force: Calibration | None, setup: Estima
     setup : Estimate or None [mm/bar]
         Deflection of the set-up per pressure.
     name : str
+    rollers : SetupCompliance or None
+        Of ball and roller bearing, a table over the engagement.
 
     Raises
     ------
@@ -144,7 +166,7 @@ def write_calibration(path: str | Path, force: Calibration | None, setup: Estima
     post = None
     if setup is not None:
         post = DeflectionDocument(setup.value, setup.standard_uncertainty, setup.degrees_of_freedom)
-    text = calibration_text(CalibrationDocument(name=name, force=force, setup_deflection=post))
+    text = calibration_text(CalibrationDocument(name=name, force=force, setup_deflection=post, setup_compliance=rollers))
     return write_whole({path: text.encode()})[0]
 
 

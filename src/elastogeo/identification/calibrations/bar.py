@@ -34,7 +34,7 @@ class BarCalibration(Result):
         return tuple(check for part in (self.force, self.setup) if part is not None for check in part.verdict)
 
 
-def calibrate(
+def calibrate_bar(
     *readings: Mapping[str, Array], load_cell: float = 0.0, dial: float = 0.0, elevation: float = 0.0
 ) -> BarCalibration:
     """Calibrate a bar that is pushed by a pressure: against a load cell, and its set-up against a dial.

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from elastogeo.report.numbers import probability, significant
 from elastogeo.report.sentences import Facts, says
-from elastogeo.report.text import in_micrometres
+from elastogeo.report.text import UM, in_micrometres
 
 
 @says("force on a straight line")
@@ -46,3 +48,48 @@ def deflection_in_proportion(facts: Facts, passed: bool | None) -> str:
         f"The deflection bends with the pressure (p = {probability(facts['p_value'])}, up to {most} from the line): a joint "
         f"of the set-up gives, or the post slips. Tighten it and read again; one number does not describe it."
     )
+
+
+@says("machine's secants free of an offset")
+def machine_free_of_an_offset(facts: Facts, passed: bool | None) -> str:
+    """Whether the machine stiffens, or its secants hold what is the same at every engagement."""
+    offset, share = f"{significant(facts['offset_mm'] * UM, 2)} µm", 100 * facts["share"]
+    if passed:
+        return f"{offset} of the machine's deflection are the same at every engagement, {share:.2g} % of the least."
+    straight = facts["straight_from_N"]
+    where = "" if straight in (None, facts["force_N"]) else f" from {straight:.0f} N on"
+    secants, increments = (_stiffnesses(facts[name]) for name in ("secants_mm_per_N", "increments_mm_per_N"))
+    return (
+        f"{offset} of the machine's deflection are the same at every engagement{where}, {share:.0f} % of the least: what "
+        f"gives way before the contact carries. Secants change with it ({secants} N/µm); the increments ({increments} N/µm) "
+        f"are free of it and show the machine."
+    )
+
+
+@says("set-up's compliance constant")
+def set_up_constant(facts: Facts, passed: bool | None) -> str:
+    """Whether one number describes the set-up."""
+    said = f"{_stiffnesses(facts['secants_mm_per_N'])} N/µm"
+    if passed is None:
+        return f"Not tested: neither the resolution of the dials nor a repeat says how well {said} are known."
+    chance = probability(facts["p_value"])
+    if passed:
+        return f"One compliance describes ball and roller at every engagement ({said}, p = {chance})."
+    return (
+        f"The set-up is not equally stiff at every engagement ({said}, p = {chance}): take the table over the engagement, "
+        f"not one constant."
+    )
+
+
+@says("readings repeated")
+def readings_repeated(facts: Facts, passed: bool | None) -> str:
+    """Whether repeats show the scatter."""
+    if passed:
+        return f"{facts['repeats']} repeats within {facts['engagements']} engagements show the scatter."
+    known = facts["resolution_mm"] > 0
+    only = "the uncertainties hold the resolution of the dials and what was stated" if known else "there is no interval"
+    return f"Not tested: each engagement was read once; {only}. Press several times to each."
+
+
+def _stiffnesses(compliances: Sequence[float]) -> str:
+    return ", ".join(f"{1 / (value * UM):.3g}" if value > 0 else "∞" for value in compliances)
