@@ -8,6 +8,7 @@ import types
 import typing
 from pathlib import Path
 
+from elastogeo.formats.documents.campaigns import CampaignDocument
 from elastogeo.formats.documents.feed_drives import DriveDocument
 from elastogeo.formats.documents.machine_tests import TestDocument
 from elastogeo.formats.documents.machines import MachineDocument
@@ -19,6 +20,7 @@ PAGE = Path(__file__).with_name("keys.md")
 FILES = {
     "drive.toml: feed drives": DriveDocument,
     "test.toml: a test": TestDocument,
+    "campaign.toml: tests of one machine": CampaignDocument,
     "simulation.toml: what to simulate": Simulation,
     "A machine file": MachineDocument,
     "A recording file": RecordingPlan,

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         inspect_file,
         machines,
         new_test,
+        read_campaign,
         read_drives,
         read_log,
         read_machine,
@@ -47,12 +48,13 @@ if TYPE_CHECKING:
         what_if,
     )
     from elastogeo.machine import Machine
-    from elastogeo.observe import MachineTest
+    from elastogeo.observe import Campaign, MachineTest
     from elastogeo.result import Result
 
 __version__ = version.VERSION
 
 _HOME = {
+    "Campaign": "observe",
     "ElastogeoError": "errors",
     "Estimate": "estimate",
     "InputError": "errors",
@@ -73,6 +75,7 @@ _HOME = {
     "machines": "formats",
     "map_stiffness": "identification",
     "new_test": "formats",
+    "read_campaign": "formats",
     "read_drives": "formats",
     "read_log": "formats",
     "read_machine": "formats",
@@ -84,6 +87,7 @@ _HOME = {
 """The room of each name of the face."""
 
 __all__ = [
+    "Campaign",
     "ElastogeoError",
     "Estimate",
     "InputError",
@@ -105,6 +109,7 @@ __all__ = [
     "machines",
     "map_stiffness",
     "new_test",
+    "read_campaign",
     "read_drives",
     "read_log",
     "read_machine",

@@ -19,6 +19,8 @@ from elastogeo.report.identification.explanation_document import explanation_jso
 from elastogeo.report.machines.document import machine_json
 
 KEYS = {
+    "tests",
+    "together",
     "schema",
     "software",
     "test",

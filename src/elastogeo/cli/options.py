@@ -9,6 +9,10 @@ import typer
 
 from elastogeo.errors import InputError
 
+TestPaths = Annotated[
+    list[Path],
+    typer.Argument(metavar="TEST...", help="Folders with a test.toml or a campaign.toml; several are asked together."),
+]
 TestPath = Annotated[Path, typer.Argument(metavar="TEST", help="A folder with a test.toml, or a test file.")]
 Report = Annotated[Path | None, typer.Option(help="Folder to write the report to: a page, a PDF, figures, JSON.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]

@@ -12,6 +12,7 @@ from elastogeo.formats.documents.calibrations import (
     read_calibration,
     write_calibration,
 )
+from elastogeo.formats.documents.campaigns import read_campaign
 from elastogeo.formats.documents.feed_drives import read_drives
 from elastogeo.formats.documents.machine_tests import example_test, full_turn, read_test, run_files_of
 from elastogeo.formats.documents.machines import find_machine, machines, read_machine, shipped_machines
@@ -77,6 +78,7 @@ __all__ = [
     "part_name",
     "poses_of",
     "read_calibration",
+    "read_campaign",
     "read_drives",
     "read_head",
     "read_log",

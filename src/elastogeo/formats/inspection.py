@@ -168,12 +168,13 @@ def inspect_file(path: str | Path) -> Inspected:
 
 
 def _folder(folder: Path) -> Inspected:
-    for name in ("test.toml", "drive.toml"):
+    for name in ("test.toml", "campaign.toml", "drive.toml"):
         if (folder / name).is_file():
             return _document(folder / name)
     if not part_files(folder):
         raise FormatError(
-            f"{folder}: is a folder without test.toml, drive.toml or parts of a recording; name one of its files"
+            f"{folder}: is a folder without test.toml, campaign.toml, drive.toml or parts of a recording; "
+            f"name one of its files"
         )
     return _of_log(folder, read_log(folder), "recording", "Parquet")
 

@@ -11,6 +11,7 @@ from elastogeo.identification.calibrations import (
     calibrate_force,
     calibrate_setup,
 )
+from elastogeo.identification.campaigns.parts import TestPart
 from elastogeo.identification.change import SIGNIFICANT, Change, difference, local_change, run_dispersion
 from elastogeo.identification.check import Check
 from elastogeo.identification.explanation import Explanation, explain
@@ -152,6 +153,7 @@ __all__ = [
     "StiffnessMap",
     "Symmetry",
     "Systems",
+    "TestPart",
     "TorqueParts",
     "Trace",
     "TwistRun",

@@ -254,29 +254,32 @@ def _shifted(systems: Systems, solution: Solution, effect: Effect, norms: Array)
     if effect.shift is None:
         return np.zeros((len(systems.runs), len(norms)))
     pairs = zip(systems.runs, effect.shift, strict=True)
-    counted = ((run, shift if run.weights is None else run.weights * shift) for run, shift in pairs)
-    return np.array([(run.design_of(solution.labels) / norms).T @ shift for run, shift in counted])
+    return np.array([(run.design_of(solution.labels) / norms).T @ (run.counted * shift) for run, shift in pairs])
 
 
 def _columns(systems: Systems, solution: Solution, effect: Effect, norms: Array) -> list[Array]:
-    """Change of the design of every run, scaled like its columns, with the weights of its readings."""
+    """Change of the design of every run, scaled like its columns."""
     columns = systems.runs[0].factor.labels
     chosen = [columns.index(label) for label in solution.labels]
-    changes = (change[:, chosen] / norms for change in effect.columns or ())
-    weights = (run.weights for run in systems.runs)
-    return [c if w is None else c * w[:, np.newaxis] for c, w in zip(changes, weights, strict=False)]
+    return [change[:, chosen] / norms for change in effect.columns or ()]
+
+
+def _counted(systems: Systems, columns: Sequence[Array]) -> list[Array]:
+    """Columns of every run, each reading with what it counts."""
+    return [c * np.reshape(run.counted, (-1, 1)) for run, c in zip(systems.runs, columns, strict=False)]
 
 
 def _loads(systems: Systems, solution: Solution, effects: Sequence[Effect], norms: Array) -> _Loads:
     """What effects on single loads change in the normal equations."""
-    changed = [(k, _columns(systems, solution, effect, norms)) for k, effect in enumerate(effects) if effect.columns]
+    plain = [(k, _columns(systems, solution, effect, norms)) for k, effect in enumerate(effects) if effect.columns]
+    changed = [(k, _counted(systems, columns)) for k, columns in plain]
     designs = [run.design_of(solution.labels) / norms for run in systems.runs]
     p, readings = len(norms), [run.reading for run in systems.runs]
     half = np.array([sum(d.T @ a for d, a in zip(D, designs, strict=True)) for _, D in changed]).reshape(-1, p, p)
     return _Loads(
         which=np.array([k for k, _ in changed], dtype=int),
         cross=half + half.swapaxes(1, 2),
-        square=np.array([[sum(d.T @ e for d, e in zip(D, E, strict=True)) for _, E in changed] for _, D in changed]),
+        square=np.array([[sum(d.T @ e for d, e in zip(D, E, strict=True)) for _, E in plain] for _, D in changed]),
         moment=np.array([sum(d.T @ y for d, y in zip(D, readings, strict=True)) for _, D in changed]).reshape(-1, p),
         shifted=np.array([[_across(D, effect) for effect in effects] for _, D in changed]).reshape(-1, len(effects), p),
     )
@@ -295,7 +298,8 @@ def _sensitivity(systems: Systems, solution: Solution, effect: Effect, runs: _Mo
     rest = runs.moment - runs.gram @ values
     moved = effect.stretch @ (runs.powers * rest - runs.gram @ (runs.powers * values))
     moved -= _shifted(systems, solution, effect, runs.norms).sum(axis=0)
-    for run, change in zip(systems.runs, _columns(systems, solution, effect, runs.norms), strict=False):
+    changes = _counted(systems, _columns(systems, solution, effect, runs.norms))
+    for run, change in zip(systems.runs, changes, strict=False):
         design = run.design_of(solution.labels) / runs.norms
         moved += change.T @ (run.reading - design @ values) - design.T @ (change @ values)
     return np.asarray(np.linalg.solve(runs.gram.sum(axis=0), moved) / runs.norms)

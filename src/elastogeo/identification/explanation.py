@@ -14,7 +14,7 @@ from elastogeo.identification.question import (
     with_question,
 )
 from elastogeo.identification.reciprocity import Reciprocity
-from elastogeo.observe import MachineTest
+from elastogeo.observe import Askable, Campaign, campaign_of
 from elastogeo.result import Result
 
 
@@ -24,27 +24,27 @@ class Explanation(Result):
 
     Attributes
     ----------
-    test : MachineTest
-        With the question that was asked.
+    campaign : Campaign
+        The tests, with the question that was asked; one test is a campaign of one.
     confounding : Confounding
     reciprocity : Reciprocity or None
         What symmetric joints would buy; None if it was not asked for.
     """
 
-    test: MachineTest
+    campaign: Campaign
     confounding: Confounding
     reciprocity: Reciprocity | None = None
 
 
-def explain(test: MachineTest, **asked: Unpack[Asked]) -> Explanation:
-    """Say what a test can and cannot distinguish; of a planned test as of one that was run.
+def explain(one: Askable, **asked: Unpack[Asked]) -> Explanation:
+    """Say what a test, or several tests together, can and cannot distinguish; of planned ones as of those that were run.
 
     Parameters
     ----------
-    test : MachineTest
-        Of a planned one the readings count for nothing: `read_test(folder, planned=360)`.
+    one : MachineTest, Campaign, sequence of MachineTest, or mapping of str to MachineTest
+        Of a planned test the readings count for nothing: `read_test(folder, planned=360)`.
     **asked
-        Another question than the test's own, as in `with_question`.
+        Another question than the tests' own, as in `with_question`.
 
     Raises
     ------
@@ -53,6 +53,6 @@ def explain(test: MachineTest, **asked: Unpack[Asked]) -> Explanation:
     UnsupportedError
         If no parameter changes any reading.
     """
-    test = with_question(test, **asked)
-    bought = what_reciprocity_buys(test) if test.question.reciprocal else None
-    return Explanation(test, confounding_of(test, systems_of(test)), bought)
+    campaign = with_question(campaign_of(one), **asked)
+    bought = what_reciprocity_buys(campaign.only) if campaign.question.reciprocal and not campaign.several else None
+    return Explanation(campaign, confounding_of(campaign, systems_of(campaign)), bought)

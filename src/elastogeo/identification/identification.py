@@ -19,8 +19,10 @@ from elastogeo.estimate import (
     solve_by_run,
 )
 from elastogeo.identification.budget import Budget, agreement, uncertainty_budget
+from elastogeo.identification.campaigns.parts import Shares, TestPart, shares_of
+from elastogeo.identification.campaigns.scopes import truth_of
 from elastogeo.identification.check import Check
-from elastogeo.identification.fit import Fit, fit_of, rmse, strongest_harmonic
+from elastogeo.identification.fit import Fit, Harmonic, fit_of, rmse, strongest_harmonic
 from elastogeo.identification.influences import Effect
 from elastogeo.identification.local import adjacent_estimates, change_between_levels, of_repeats
 from elastogeo.identification.model_choice.choice import compare_models
@@ -55,14 +57,13 @@ from elastogeo.identification.verdict import (
     geometry_modelled,
     identifiable,
     influences_stated,
-    is_set_up,
     levels_agree,
     model_adequate,
     residuals_unstructured,
     separated,
     uncertainty_by_run,
 )
-from elastogeo.observe import MachineTest, Observations
+from elastogeo.observe import Askable, Campaign, MachineTest, Observations, campaign_of
 from elastogeo.sources import Source
 
 POSES_DRAWN = 181
@@ -72,14 +73,16 @@ LEVELS_FOR_MODELS = 2
 """How many force levels it takes for a comparison of models to have anything to say, if only that they are too few."""
 
 
-def identify(test: MachineTest, **asked: Unpack[Asked]) -> Identification:
-    """Identify the parameters that a test's question asks for.
+def identify(one: Askable, **asked: Unpack[Asked]) -> Identification:
+    """Identify the parameters that the question of a test, or of several tests of one machine, asks for.
 
     Parameters
     ----------
-    test : MachineTest
+    one : MachineTest, Campaign, sequence of MachineTest, or mapping of str to MachineTest
+        A test; or several, of any instruments, that are estimated together: parameters of the machine are one for all, the
+        set-up is of each test.
     **asked
-        Another question than the test's own, as in `with_question`: `parameters`, `prefer`, `reference`, `levels`,
+        Another question than the tests' own, as in `with_question`: `parameters`, `prefer`, `reference`, `levels`,
         `without_levels`, `reciprocal`, `robust`.
 
     Returns
@@ -90,25 +93,27 @@ def identify(test: MachineTest, **asked: Unpack[Asked]) -> Identification:
     ------
     SelectionError
         If the question names no error source of the machine.
+    InputError
+        If the tests are not of one machine, or one of several subtracts a reference level.
     UnsupportedError
         If no parameter changes any reading, the reference level is missing, or there are too few readings.
     """
-    test = with_question(test, **asked)
-    return identify_observed(test, test.observations())
+    return identify_observed(with_question(campaign_of(one), **asked))
 
 
-def identify_observed(test: MachineTest, observations: Sequence[Observations]) -> Identification:
-    """Identify the parameters that a test's question asks for, as `identify`, of observations that were made before."""
-    systems = systems_of(test, observations)
-    found = confounding_of(test, systems)
-    if test.question.robust:
+def identify_observed(one: Askable, observations: Sequence[Observations] | None = None) -> Identification:
+    """Identify what the tests' question asks for, as `identify`; of one test with observations that were made before."""
+    campaign = campaign_of(one)
+    systems = systems_of(campaign, observations)
+    found = confounding_of(campaign, systems)
+    if campaign.question.robust:
         systems = downweighted(systems, found.retained)
-    known = effects_of(test, systems)
-    return _assessed(_identified(test, systems, found, known), systems, known)
+    known = effects_of(campaign, systems)
+    return _assessed(_identified(campaign, systems, found, known), systems, known)
 
 
 def identified(one: MachineTest | Identification, **asked: Unpack[Asked]) -> Identification:
-    """What a test says; of an identification, itself.
+    """What one test says; of an identification, itself.
 
     Raises
     ------
@@ -122,33 +127,40 @@ def identified(one: MachineTest | Identification, **asked: Unpack[Asked]) -> Ide
     return one
 
 
-def _identified(test: MachineTest, systems: Systems, found: Confounding, known: Sequence[Effect]) -> Identification:
+def _identified(campaign: Campaign, systems: Systems, found: Confounding, known: Sequence[Effect]) -> Identification:
     """The estimate and its uncertainty, not yet held against models and physics."""
     naive = solve(merged(systems.runs), found.retained, noise_of(systems.runs, systems.references))
     solution = _by_run(systems, found) or naive
     budget = uncertainty_budget(systems, solution, known)
     traces = tuple(_trace(run, solution) for run in systems.runs)
-    local, variable = adjacent_estimates(systems, found.retained), variable_compliance(systems, found.retained)
+    shares, one = shares_of(systems, solution.labels), not campaign.several
+    parts = [systems.of(test) for test in systems.tests]
+    local = adjacent_estimates(systems, found.retained) if one else ()
+    variable = variable_compliance(systems, found.retained) if one else None
+    truth = truth_of(campaign, systems.sources)
     return Identification(
-        test=test,
-        reference_force=test.question.reference_force,
-        parameters=_parameters(systems, found, solution, budget if solution is not naive else None, test.truth),
+        campaign=campaign,
+        tests=tuple(_part(k, part, traces, shares) for k, part in enumerate(parts)),
+        together=() if one else shares.together,
+        information={} if one else _information(shares, systems.tests),
+        reference_force=campaign.question.reference_force,
+        parameters=_parameters(systems, found, solution, budget if solution is not naive else None, truth),
         confounding=found,
         solution=solution,
         naive=naive,
         by_run=solution is not naive,
         budget=budget,
-        local_change=change_between_levels(systems, found.retained),
+        local_change=change_between_levels(systems, found.retained) if one else None,
         minimum_norm=dict(zip(found.labels, map(float, minimum_norm(merged(systems.runs))), strict=True)),
         traces=traces,
-        levels=_levels(systems, traces, solution, local, variable),
+        levels=tuple(level for part in parts for level in _levels(part, traces, solution, local, variable)),
         local=local,
-        repeats=of_repeats(systems, found.retained),
+        repeats=of_repeats(systems, found.retained) if one else None,
         patterns=_patterns(systems, found),
-        responses=_responses(test, systems, solution),
+        responses=_responses(campaign, systems, solution),
         variable=variable,
-        set_up={run.name: _set_up(run, systems.own, solution) for run in systems.runs if systems.own},
-        rmse=rmse(np.concatenate([t.predicted for t in traces]), np.concatenate([t.measured for t in traces])),
+        set_up={run.name: _set_up(run, solution) for run in systems.runs if run.set_up_names},
+        rmse=_rmse([trace for trace, run in zip(traces, systems.runs, strict=True) if not run.angular] or traces),
         verdict=(),
     )
 
@@ -157,28 +169,29 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
     """The result with its verdict, and with what models and physics say where they can."""
     parameters, geometric = result.parameters, [p.name for p in result.parameters if not p.elastic]
     elastic = any(p.elastic and p.axis for p in parameters) and all(p.separated for p in parameters)
-    if elastic and not systems.references and len(systems.levels) >= LEVELS_FOR_MODELS:
-        angular = result.test.setup.pose_quantity == "angle"
-        models = compare_models(result.test.machine, systems, result.confounding.retained, angular)
+    campaign = result.campaign
+    circles = [name for name, test in campaign.tests.items() if test.setup.pose_quantity == "angle"]
+    if elastic and not campaign.several and not systems.references and len(systems.levels) >= LEVELS_FOR_MODELS:
+        models = compare_models(campaign.machine, systems, result.confounding.retained, bool(circles))
         result = replace(result, models=models)
     result, drawn = _held_against_draws(result, systems, known)
     physics = None
     if elastic:
         result, physics = _held_against_physics(result)
-    around = result.traces if result.test.setup.pose_quantity == "angle" else ()
+    around = [trace for trace in result.traces if trace.test in circles]
     harmonics = {t.run: strongest_harmonic(t.measured - t.predicted, t.pose, len(around)) for t in around}
-    shared = shared_harmonic(systems.runs, result.solution.labels) if around and result.by_run else None
-    robust = result.test.question.robust
+    shared = _shared(systems, circles, result.solution.labels) if result.by_run else None
+    robust = campaign.question.robust
     elastic_sources = [source for source in systems.sources if source.elastic]
     both = 0 < len(elastic_sources) < len(systems.sources)
     reference, runs = bool(systems.references), len(systems.runs)
     needed = (
         None if result.by_run or reference else runs_needed([run.factor for run in systems.runs], result.solution.labels)
     )
-    labels = [effect.influence.label for effect in known]
-    stated = [*(label for label in labels if label != ROUNDING), *(one.label or one.kind for one in result.test.influences)]
+    stated = [effect.influence.label for effect in known if effect.influence.label != ROUNDING]
+    stated += [one.label or one.kind for test in campaign.tests.values() for one in test.influences]
     verdict = (
-        identifiable(result.confounding, by_default=not result.test.question.parameters),
+        identifiable(result.confounding, by_default=not campaign.question.parameters),
         forces_distinct(systems.applied, both) if elastic_sources else None,
         geometry_modelled(systems.sources, reference, bool(around)) if elastic_sources and _goes_around(systems) else None,
         separated(parameters) if both else None,
@@ -188,7 +201,7 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
         influences_stated(stated, reference),
         drawn,
         free_of_outliers([run.weights for run in systems.runs if run.weights is not None]) if robust else None,
-        above_resolution({p.name: abs(p.peak_to_peak) for p in parameters}, result.test.resolution),
+        above_resolution({p.name: abs(p.peak_to_peak) for p in parameters}, _resolution(campaign)),
         model_adequate(result.models) if result.models else None,
         levels_agree(result.models) if result.models else None,
         geometry_constant(result.models, result.local_change, geometric) if result.models and geometric else None,
@@ -217,6 +230,19 @@ def _held_against_draws(
     return replace(result, agreement=drawn, parameters=parameters), first_order_enough(drawn, parameters)
 
 
+def _shared(systems: Systems, circles: Sequence[str], labels: Sequence[str]) -> Harmonic | None:
+    """The surest harmonic that the runs of a circular test share, and whether it is one for so many tests."""
+    parts = [systems.of(test).runs for test in circles if test in systems.tests]
+    seen = [[label for label in labels if any(run.design_of([label]).any() for run in runs)] for runs in parts]
+    found = [shared_harmonic(runs, own, len(parts)) for runs, own in zip(parts, seen, strict=True)]
+    return max(filter(None, found), key=lambda harmonic: (harmonic.significant, harmonic.amplitude), default=None)
+
+
+def _resolution(campaign: Campaign) -> float | None:
+    """The coarsest resolution of the tests that state one; None if none does."""
+    return max((test.resolution for test in campaign.tests.values() if test.resolution is not None), default=None)
+
+
 def _goes_around(systems: Systems) -> bool:
     """Whether the axes move within the test, so that its readings hold the geometry of the machine."""
     return any(np.ptp(run.observations.commands, axis=0).any() for run in systems.runs)
@@ -230,7 +256,7 @@ def _held_against_physics(result: Identification) -> tuple[Identification, Check
         return result, Check(PHYSICALLY_CONSISTENT, None, {"state": NOT_TESTED, "why": str(error)})
     known = replace(result.solution, covariance=result.budget.covariance)
     return replace(result, consistency=found), physically_consistent(
-        found, sources_of(result.test), result.confounding, known
+        found, sources_of(result.campaign), result.confounding, known
     )
 
 
@@ -242,7 +268,7 @@ def consistency_of(identification: Identification) -> Consistency:
     """
     budget, naive = identification.budget, identification.naive
     return consistency(
-        sources_of(identification.test),
+        sources_of(identification.campaign),
         identification.confounding,
         replace(identification.solution, covariance=budget.covariance, degrees_of_freedom=budget.degrees_of_freedom),
         correlated_as=naive.covariance if identification.by_run else None,
@@ -260,13 +286,42 @@ def _by_run(systems: Systems, found: Confounding) -> Solution | None:
         return None
 
 
-def _set_up(run: RunSystem, own: Sequence[Source], solution: Solution) -> dict[str, float]:
+def _part(k: int, systems: Systems, traces: Sequence[Trace], shares: Shares) -> TestPart:
+    """What one test adds."""
+    test = systems.runs[0].test
+    own = [trace for trace in traces if trace.test == test]
+    return TestPart(
+        name=test,
+        runs=len(systems.runs),
+        readings=sum(len(trace.measured) for trace in own),
+        forces=systems.levels,
+        rmse=_rmse(own),
+        scatter=systems.scatter.get(test),
+        angular=any(run.angular for run in systems.runs),
+        rank=shares.ranks[k],
+        alone=shares.named(shares.alone[k]),
+        rank_so_far=shares.ranks_so_far[k],
+        adds=shares.adds(k),
+    )
+
+
+def _information(shares: Shares, tests: Sequence[str]) -> dict[str, dict[str, float]]:
+    columns = zip(shares.labels, shares.information.T, strict=True)
+    return {label: dict(zip(tests, map(float, column), strict=True)) for label, column in columns}
+
+
+def _rmse(traces: Sequence[Trace]) -> float:
+    return rmse(np.concatenate([t.predicted for t in traces]), np.concatenate([t.measured for t in traces]))
+
+
+def _set_up(run: RunSystem, solution: Solution) -> dict[str, float]:
     values = run.set_up(solution.labels, solution.values)
-    return {source.name: float(value) for source, value in zip(own, values, strict=True)}
+    return dict(zip(run.set_up_names, map(float, values), strict=True))
 
 
 def _trace(run: RunSystem, solution: Solution) -> Trace:
-    return Trace(run.name, run.force, run.observations.pose, run.reading, run.design_of(solution.labels) @ solution.values)
+    predicted = run.design_of(solution.labels) @ solution.values
+    return Trace(run.name, run.force, run.observations.pose, run.reading, predicted, run.test)
 
 
 def _levels(
@@ -291,31 +346,34 @@ def _level(
     variable: Fit | None,
     local: Sequence[Solution],
 ) -> Level:
-    chosen = [(trace.predicted, trace.measured) for trace in traces if trace.force == force]
-    runs, fit = systems.at(force), fit_of(chosen)
+    runs = systems.at(force)
+    own = [trace for trace in traces if trace.force == force and trace.test == runs[0].test]
+    fit = fit_of([(trace.predicted, trace.measured) for trace in own])
     around = [(run.design_of(one.labels) @ one.values, run.reading) for one in local for run in runs]
     by_name = {source.name: source for source in systems.sources}
     machine_parts = [by_name[label] for label in solution.labels if by_name[label].site[1]]
     return Level(
         force=force,
-        readings=sum(len(measured) for _, measured in chosen),
+        readings=sum(len(trace.measured) for trace in own),
         rmse=fit.rmse,
         fitness=fit.fitness,
         elastic=_span_of(runs[0], solution, [source for source in machine_parts if source.elastic]),
         geometric=_span_of(runs[0], solution, [source for source in machine_parts if not source.elastic]),
         variable=variable,
         local=fit_of(around) if around else None,
+        test=runs[0].test,
     )
 
 
-def _responses(test: MachineTest, systems: Systems, solution: Solution) -> tuple[Response, ...]:
-    """Of the first run of each level in each direction, at evenly chosen readings."""
-    senses = {run.name: run.sense for run in test.runs}
-    first: dict[tuple[float, int], RunSystem] = {}
+def _responses(campaign: Campaign, systems: Systems, solution: Solution) -> tuple[Response, ...]:
+    """Of the first run of each level in each direction of each test, at evenly chosen readings."""
+    senses = {name: {run.name: run.sense for run in test.runs} for name, test in campaign.tests.items()}
+    first: dict[tuple[float, str, int], RunSystem] = {}
     for run in systems.runs:
-        first.setdefault((run.force, senses.get(run.name, 1)), run)  # a part of a run, as a cycle, goes around nothing
+        sense = senses[run.test].get(run.name.removeprefix(f"{run.test}/"), 1)
+        first.setdefault((run.force, run.test, sense), run)  # a part of a run, as a cycle, goes around nothing
     found = []
-    for (force, _), run in sorted(first.items(), key=lambda item: item[0][0]):
+    for (force, *_), run in sorted(first.items(), key=lambda item: item[0][0]):
         chosen = np.unique(np.linspace(0, len(run.rows) - 1, POSES_DRAWN).round().astype(int))
         found.append(Response(run.name, force, run.observations.pose[chosen], run.design_of(solution.labels)[chosen]))
     return tuple(found)
@@ -335,7 +393,7 @@ def _parameters(
     """The parameters; without a budget, without uncertainty; of readings that were measured, without a truth."""
     by_name = {source.name: source for source in systems.sources}
     ranges = systems.range_per_unit(solution.labels) * solution.values
-    machine = [not is_set_up(by_name[name]) for name in solution.labels]
+    machine = [not by_name[name].set_up for name in solution.labels]
     total = float(np.abs(ranges[machine]).sum()) or 1.0
     return tuple(
         Parameter(
@@ -363,9 +421,11 @@ def _estimate(solution: Solution, budget: Budget, k: int) -> Estimate:
 
 
 def _patterns(systems: Systems, found: Confounding) -> tuple[Pattern, ...]:
-    strongest = systems.strongest[0]
-    responses = {group: strongest.design_of([group[0]])[:, 0] for group in found.groups}
-    pose = strongest.observations.pose
-    return tuple(
-        Pattern(group, pose, response / np.abs(response).max()) for group, response in responses.items() if response.any()
-    )
+    patterns = []
+    for group in found.groups:
+        for run in systems.strongest:
+            response = run.design_of([group[0]])[:, 0]
+            if response.any():
+                patterns.append(Pattern(group, run.observations.pose, response / np.abs(response).max(), run.test))
+                break
+    return tuple(patterns)

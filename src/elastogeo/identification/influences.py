@@ -4,14 +4,19 @@ Each kind is one small function that turns an entry of the test file into effect
 by `@effect`. An effect is either a relative change of the force of each run (the force stands in the design matrix, so this
 changes columns, each by its own power of the force, exactly), or a change of the readings, or of single loads, which changes
 the columns reading by reading. What is uncertain in the observations themselves comes with them.
+
+Tests that share an instrument (its serial number) share what is uncertain of it: one gauge is off by one amount in all of
+them. What is of the day or the place (`of="test"`) is of each test for itself.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import sqrt
+from typing import Literal
 
 import numpy as np
 
@@ -19,7 +24,7 @@ from elastogeo.errors import InputError
 from elastogeo.estimate import Influence
 from elastogeo.identification.systems import RunSystem, Systems
 from elastogeo.machine import Array, Machine
-from elastogeo.observe import KnownInfluence, MachineTest, ObservedInfluence
+from elastogeo.observe import Campaign, KnownInfluence, MachineTest, ObservedInfluence
 from elastogeo.sources import load_derivative
 
 FORM_ORDERS = (2, 3, 4, 5)
@@ -48,33 +53,110 @@ class Effect:
 
 
 EffectMaker = Callable[[KnownInfluence, MachineTest, Systems], Iterator[Effect]]
-_KINDS: dict[str, EffectMaker] = {}
+Belonging = Literal["instrument", "test"]
+_KINDS: dict[str, tuple[EffectMaker, Belonging]] = {}
 
 
-def effect(kind: str) -> Callable[[EffectMaker], EffectMaker]:
-    """Register a kind of influence under the name that test files use."""
+def effect(kind: str, of: Belonging = "instrument") -> Callable[[EffectMaker], EffectMaker]:
+    """Register a kind of influence under the name that test files use; `of` says what all tests of it have in common."""
 
     def register(make: EffectMaker) -> EffectMaker:
-        _KINDS[kind] = make
+        _KINDS[kind] = make, of
         return make
 
     return register
 
 
-def effects(test: MachineTest, systems: Systems) -> tuple[Effect, ...]:
-    """The effects of all influences that a test states.
+@dataclass(frozen=True, slots=True)
+class _Quantity:
+    """Which influence quantity an effect is of: those of one owner and one name are one."""
+
+    owner: str
+    kind: str
+    label: str
+    number: int
+
+
+def effects(campaign: Campaign, systems: Systems) -> tuple[Effect, ...]:
+    """The effects of all influences that the tests state; of those that share an instrument, one.
 
     Raises
     ------
     InputError
-        If a kind is unknown, or an entry lacks the size that its kind needs.
+        If a kind is unknown, an entry lacks the size that its kind needs, or two tests state different things of one
+        instrument.
     """
-    found = list(_observed(test.machine, systems))
+    found: dict[_Quantity, list[tuple[str, Effect]]] = {}
+    for name, test in campaign.tests.items():
+        own = systems.of(name)
+        if own.runs:
+            for quantity, one in _of_test(name, test, own):
+                found.setdefault(quantity, []).append((name, one))
+    return tuple(_together(quantity, parts, systems) for quantity, parts in found.items())
+
+
+def _of_test(name: str, test: MachineTest, systems: Systems) -> Iterator[tuple[_Quantity, Effect]]:
+    """The effects of one test on its own runs, each with the quantity that it is of."""
+    count: Counter[tuple[str, str, str]] = Counter()
+    for kind, of, one in _stated(test, systems):
+        serial = test.about.instrument_serial.strip()
+        owner = f"instrument {serial}" if serial and of == "instrument" else f"test {name}"
+        label = one.influence.label
+        yield _Quantity(owner, kind, label, count[owner, kind, label]), one
+        count[owner, kind, label] += 1
+
+
+def _stated(test: MachineTest, systems: Systems) -> Iterator[tuple[str, Belonging, Effect]]:
+    for one in _observed(test.machine, systems):
+        yield "", "instrument", one
     for known in test.influences:
         if known.kind not in _KINDS:
             raise InputError(f"there is no influence {known.kind!r}; there are {', '.join(_KINDS)}")
-        found.extend(_KINDS[known.kind](known, test, systems))
-    return tuple(found)
+        make, of = _KINDS[known.kind]
+        for one in make(known, test, systems):
+            yield known.kind, of, one
+
+
+def _together(quantity: _Quantity, parts: Sequence[tuple[str, Effect]], systems: Systems) -> Effect:
+    """The effect of one quantity on all runs: none on those of tests that do not have it."""
+    (first, one), *others = parts
+    for name, other in others:
+        if other.influence != one.influence:
+            raise InputError(
+                f"tests {first!r} and {name!r} have the same {quantity.owner} and state different things of "
+                f"{quantity.label!r}: {_said(one.influence)}, and {_said(other.influence)}; state what is known of an "
+                f"instrument once, under [[instruments]] of the campaign"
+            )
+    return _on_all_runs(dict(parts), systems)
+
+
+def on_all_runs(effect: Effect, test: str, systems: Systems) -> Effect:
+    """An effect on the runs of one test as one on the runs of all: none on those of others."""
+    return _on_all_runs({test: effect}, systems)
+
+
+def _on_all_runs(by_test: Mapping[str, Effect], systems: Systems) -> Effect:
+    """The effect of one quantity on all runs: none on those of tests that do not have it."""
+    one = next(iter(by_test.values()))
+    if len(systems.tests) == 1:
+        return one
+    at = {name: [k for k, run in enumerate(systems.runs) if run.test == name] for name in by_test}
+    stretch = np.zeros(len(systems.runs))
+    for name, part in by_test.items():
+        stretch[at[name]] = part.stretch
+    shifts = {k: s for name, part in by_test.items() for k, s in zip(at[name], part.shift or (), strict=False)}
+    columns = {k: c for name, part in by_test.items() for k, c in zip(at[name], part.columns or (), strict=False)}
+    none = len(systems.sources)
+    return Effect(
+        one.influence,
+        stretch,
+        tuple(shifts.get(k, np.zeros(len(run.rows))) for k, run in enumerate(systems.runs)) if shifts else None,
+        tuple(columns.get(k, np.zeros((len(run.rows), none))) for k, run in enumerate(systems.runs)) if columns else None,
+    )
+
+
+def _said(influence: Influence) -> str:
+    return f"{influence.distribution}, {influence.scale:g} with {influence.degrees_of_freedom:g} degrees of freedom"
 
 
 def _observed(machine: Machine, systems: Systems) -> Iterator[Effect]:
@@ -145,7 +227,7 @@ def sensor_scale(known: KnownInfluence, _: MachineTest, systems: Systems) -> Ite
     yield _reading_effect(_influence(known, known.relative, "relative"), systems, _measured)
 
 
-@effect("ball-form")
+@effect("ball-form", of="test")
 def ball_form(known: KnownInfluence, _: MachineTest, systems: Systems) -> Iterator[Effect]:
     """The balls are not round: half the peak-to-valley of their form, as harmonics of unknown phase, alike in all runs."""
     whole = _influence(known, known.length, "length_um")
@@ -161,7 +243,7 @@ def setup_deflection(known: KnownInfluence, _: MachineTest, systems: Systems) ->
     yield _reading_effect(_influence(known, known.relative, "relative"), systems, lambda run: run.observations.correction)
 
 
-@effect("thermal-drift")
+@effect("thermal-drift", of="test")
 def thermal_drift(known: KnownInfluence, _: MachineTest, systems: Systems) -> Iterator[Effect]:
     """The readings drift by an amount over the whole test, evenly, in the order of the runs."""
     total = sum(len(run.rows) for run in systems.runs)

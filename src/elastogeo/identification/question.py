@@ -1,21 +1,25 @@
-"""What is asked of a test, and the linear systems and influences that follow from it."""
+"""What is asked of a test, or of several, and the linear systems and influences that follow from it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Literal, TypedDict
+from typing import Literal, TypedDict, TypeVar
 
 from elastogeo.errors import InputError
 from elastogeo.estimate import Confounding, confounding
-from elastogeo.identification.influences import Effect, effects
+from elastogeo.identification.campaigns.precision import weighted
+from elastogeo.identification.campaigns.scopes import Scopes, preferred, scopes_of
+from elastogeo.identification.influences import Effect, effects, on_all_runs
 from elastogeo.identification.levels import force_levels, force_spread
 from elastogeo.identification.preference import retaining_order
-from elastogeo.identification.reciprocity import Reciprocity, reciprocal_sources, reciprocity
+from elastogeo.identification.reciprocity import Reciprocity, reciprocity
 from elastogeo.identification.rounding import rounding_effects
-from elastogeo.identification.systems import Systems, merged, run_systems
-from elastogeo.observe import MachineTest, Observations, Question
+from elastogeo.identification.systems import Systems, joined, merged, run_systems
+from elastogeo.observe import Askable, Campaign, MachineTest, Observations, campaign_of
 from elastogeo.sources import Source, select_sources
+
+One = TypeVar("One", MachineTest, Campaign)
 
 
 class Asked(TypedDict, total=False):
@@ -31,7 +35,7 @@ class Asked(TypedDict, total=False):
 
 
 def with_question(
-    test: MachineTest,
+    one: One,
     parameters: str | Sequence[str] | None = None,
     prefer: str | Sequence[str] | None = None,
     reference: float | Literal["test", "none"] = "test",
@@ -39,12 +43,12 @@ def with_question(
     without_levels: Sequence[float] | None = None,
     reciprocal: bool = False,
     robust: bool = False,
-) -> MachineTest:
-    """The test with another question: its own where nothing else is given.
+) -> One:
+    """The test, or the tests of a campaign, with another question: their own where nothing else is given.
 
     Parameters
     ----------
-    test : MachineTest
+    one : MachineTest or Campaign
     parameters : str or sequence of str, optional
         Names, patterns (`C_??X`) or presets (`planar-xy`) of the parameters to identify.
     prefer : str or sequence of str, optional
@@ -63,21 +67,27 @@ def with_question(
     InputError
         If the reference is neither a force nor one of the two words.
     """
-    question = test.question
     if isinstance(reference, str) and reference not in ("test", "none"):
         raise InputError(f"the reference level is {reference!r}; give a force in N, or 'none' to subtract none")
-    force = question.reference_force if reference == "test" else None if reference == "none" else float(reference)
-    asked = Question(
-        parameters=_listed(parameters) or question.parameters,
-        reference_force=force,
-        prefer=_listed(prefer) or question.prefer,
-        levels=tuple(levels or question.levels),
-        without_levels=tuple(without_levels or question.without_levels),
-        reciprocal=reciprocal or question.reciprocal,
-        robust=robust or question.robust,
-        set_up_per_run=question.set_up_per_run,
-    )
-    return replace(test, question=asked)
+
+    def asked(test: MachineTest) -> MachineTest:
+        own = test.question
+        force = own.reference_force if reference == "test" else None if reference == "none" else float(reference)
+        question = replace(
+            own,
+            parameters=_listed(parameters) or own.parameters,
+            reference_force=force,
+            prefer=_listed(prefer) or own.prefer,
+            levels=tuple(levels or own.levels),
+            without_levels=tuple(without_levels or own.without_levels),
+            reciprocal=reciprocal or own.reciprocal,
+            robust=robust or own.robust,
+        )
+        return replace(test, question=question)
+
+    if isinstance(one, Campaign):
+        return replace(one, tests={name: asked(test) for name, test in one.tests.items()})
+    return asked(one)
 
 
 def _listed(names: str | Sequence[str] | None) -> tuple[str, ...]:
@@ -85,27 +95,56 @@ def _listed(names: str | Sequence[str] | None) -> tuple[str, ...]:
     return (names,) if isinstance(names, str) else tuple(names or ())
 
 
-def systems_of(test: MachineTest, observations: Sequence[Observations] | None = None) -> Systems:
-    """The linear systems that a test and its question amount to, of its observations if they were made before."""
-    sources = sources_of(test)
-    chosen = chosen_observations(test, test.observations() if observations is None else observations)
-    reference, own = test.question.reference_force, own_to_run(test, sources)
-    return run_systems(sources, test.machine, chosen, reference, own, force_spread(test))
+def systems_of(one: Askable, observations: Sequence[Observations] | None = None) -> Systems:
+    """The linear systems that a test, or several, and their question amount to.
+
+    Parameters
+    ----------
+    one : MachineTest, Campaign, or several tests
+    observations : sequence of Observations, optional
+        Of one test, if they were made before.
+
+    Raises
+    ------
+    InputError
+        If a reference level is to be subtracted in one of several tests.
+    """
+    campaign = campaign_of(one)
+    found = campaign.observations() if observations is None else dict.fromkeys(campaign.tests, tuple(observations))
+    scopes = scopes_of(campaign)
+    tests = {name: _of_test(name, test, found[name], scopes, campaign.several) for name, test in campaign.tests.items()}
+    systems = joined(list(tests.values()))
+    if not campaign.several:
+        return systems
+    return weighted(systems, {name: test.resolution for name, test in campaign.tests.items()})
 
 
-def sources_of(test: MachineTest) -> tuple[Source, ...]:
-    """The error sources that a test's question asks for."""
-    sources = select_sources(test.machine, test.asked)
-    return reciprocal_sources(sources) if test.question.reciprocal else sources
+def _of_test(name: str, test: MachineTest, observed: Sequence[Observations], scopes: Scopes, several: bool) -> Systems:
+    """The systems of one test, with the columns of all; of several tests, each run under the name of its test too."""
+    chosen = chosen_observations(test, observed)
+    reference, own = test.question.reference_force, own_to_run(test)
+    if several:
+        if reference is not None:
+            raise InputError(
+                f"test {name!r} subtracts the readings at {reference:g} N; several tests are asked together without a "
+                f"reference level, with geometry and set-up in the model: ask with reference 'none'"
+            )
+        chosen = tuple(replace(run, run=f"{name}/{run.run}") for run in chosen)
+    return run_systems(scopes.sources, test.machine, chosen, reference, own, force_spread(test), name, scopes.absent[name])
 
 
-def own_to_run(test: MachineTest, sources: Sequence[Source]) -> tuple[Source, ...]:
+def sources_of(one: Askable) -> tuple[Source, ...]:
+    """The error sources that a question asks for, one per column."""
+    return scopes_of(campaign_of(one)).sources
+
+
+def own_to_run(test: MachineTest) -> tuple[Source, ...]:
     """The set-up that every run has for itself; none where it is asked for as one for all, or a reference subtracted."""
     patterns = test.setup.own_to_run
     if not (patterns and test.question.set_up_per_run) or test.question.reference_force is not None:
         return ()
     own = select_sources(test.machine, patterns)
-    asked = {source.name for source in sources}
+    asked = {source.name for source in select_sources(test.machine, test.asked)}
     return () if any(source.name in asked for source in own) else own
 
 
@@ -125,10 +164,11 @@ def chosen_observations(test: MachineTest, observations: Sequence[Observations])
     return tuple(run for run in observations if levels.level(run.force) in wanted)
 
 
-def confounding_of(test: MachineTest, systems: Systems) -> Confounding:
-    """What the test can and cannot tell apart of what its question asks for."""
-    observations = [run.observations for run in systems.runs]
-    order = retaining_order(systems.sources, test.machine, observations, test.question.prefer)
+def confounding_of(one: Askable, systems: Systems) -> Confounding:
+    """What the tests can and cannot tell apart of what their question asks for."""
+    campaign, observations = campaign_of(one), [run.observations for run in systems.runs]
+    prefer = preferred(campaign.question.prefer, systems.sources)
+    order = retaining_order(systems.sources, campaign.machine, observations, prefer)
     return confounding(merged(systems.runs), order, systems.ceilings, max(run.collinear for run in observations))
 
 
@@ -139,10 +179,18 @@ def what_reciprocity_buys(test: MachineTest) -> Reciprocity:
     return reciprocity(sources, test.machine, test.observations(), question.reference_force, question.prefer)
 
 
-def effects_of(test: MachineTest, systems: Systems) -> tuple[Effect, ...]:
-    """The effects of the systematic influences that a test states, and of what rounding its repeats share.
+def effects_of(one: Askable, systems: Systems) -> tuple[Effect, ...]:
+    """The effects of the systematic influences that tests state, and of what rounding their repeats share.
 
     None where a reference level is subtracted: they would enter reference and level alike, and an estimate of differences
     has no interval that they could widen.
     """
-    return () if systems.references else (*effects(test, systems), *rounding_effects(systems, test.resolution))
+    if systems.references:
+        return ()
+    campaign = campaign_of(one)
+    rounded = (
+        on_all_runs(effect, name, systems)
+        for name, test in campaign.tests.items()
+        for effect in rounding_effects(systems.of(name), test.resolution)
+    )
+    return (*effects(campaign, systems), *rounded)

@@ -9,6 +9,7 @@ from elastogeo.equality import ByValue
 from elastogeo.errors import SelectionError
 from elastogeo.estimate import Confounding, Estimate, Repeatability, Solution
 from elastogeo.identification.budget import Agreement, Budget
+from elastogeo.identification.campaigns.parts import TestPart
 from elastogeo.identification.change import Change
 from elastogeo.identification.check import Check
 from elastogeo.identification.fit import Fit
@@ -16,7 +17,7 @@ from elastogeo.identification.model_choice.result import ModelChoice
 from elastogeo.identification.model_choice.variable_compliance import VariableCompliance
 from elastogeo.identification.physics import Consistency
 from elastogeo.machine import Array
-from elastogeo.observe import MachineTest
+from elastogeo.observe import Campaign, MachineTest
 from elastogeo.result import Part, Result
 from elastogeo.sources import Sign
 
@@ -107,7 +108,9 @@ class Trace:
     force : float [N]
     pose : array, shape (m,) [rad or mm]
         What the run file counts along: the angle of a ball bar.
-    measured, predicted : array, shape (m,) [mm]
+    measured, predicted : array, shape (m,) [mm or rad]
+    test : str
+        Name of the test in the campaign.
     """
 
     run: str
@@ -115,6 +118,7 @@ class Trace:
     pose: Array
     measured: Array
     predicted: Array
+    test: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,6 +139,8 @@ class Level:
         Of the model whose compliances change with the force (Table 5.9).
     local : Fit or None
         Of the local estimates that this level is part of, one or two: their predictions together.
+    test : str
+        Name of the test in the campaign.
     """
 
     force: float
@@ -145,6 +151,7 @@ class Level:
     geometric: tuple[float, float]
     variable: Fit | None = None
     local: Fit | None = None
+    test: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -196,21 +203,30 @@ class Pattern:
     pose : array, shape (m,)
     response : array, shape (m,)
         Scaled to a greatest absolute value of 1.
+    test : str
+        Name of the first test that shows it.
     """
 
     names: tuple[str, ...]
     pose: Array
     response: Array
+    test: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Identification(Result):
-    """All that one test says: `result["C_XXX"]` is one of its parameters.
+    """All that a test says, or several tests of one machine together: `result["C_XXX"]` is one of its parameters.
 
     Attributes
     ----------
-    test : MachineTest
-        As it was given.
+    campaign : Campaign
+        The tests, as they were given; one test is a campaign of one.
+    tests : tuple of TestPart
+        What each of them adds.
+    together : tuple of str
+        Of several tests, the parameters that none determines alone.
+    information : dict of str to dict of str to float
+        Of several tests, by parameter and test: 1 less the variance with all over that without this test.
     reference_force : float or None [N]
         Force level that was taken off.
     parameters : tuple of Parameter
@@ -232,7 +248,7 @@ class Identification(Result):
     traces : tuple of Trace
     levels : tuple of Level
     local : tuple of Local
-        From adjacent force levels.
+        From adjacent force levels; empty for several tests.
     repeats : Repeatability or None
         From the levels that were repeated, if at least two were.
     patterns : tuple of Pattern
@@ -243,7 +259,7 @@ class Identification(Result):
     set_up : dict of str to dict of str to float [mm]
         Of each run its own set-up: where its circle really lies. Empty where it is one for all runs, or not in the model.
     rmse : float [mm]
-        Over all readings.
+        Over all readings; of several tests over those that read lengths, if any do.
     agreement : Agreement or None
         Of the first-order budget with random draws; None if the test states no systematic influence.
     models : ModelChoice or None
@@ -253,7 +269,10 @@ class Identification(Result):
     verdict : tuple of Check
     """
 
-    test: MachineTest
+    campaign: Campaign
+    tests: tuple[TestPart, ...]
+    together: tuple[str, ...]
+    information: dict[str, dict[str, float]]
     reference_force: float | None
     parameters: tuple[Parameter, ...]
     confounding: Confounding
@@ -276,6 +295,17 @@ class Identification(Result):
     consistency: Consistency | None = None
     responses: tuple[Response, ...] = ()
     variable: VariableCompliance | None = None
+
+    @property
+    def test(self) -> MachineTest:
+        """The test that this is the result of.
+
+        Raises
+        ------
+        InputError
+            If there are several.
+        """
+        return self.campaign.only
 
     def __getitem__(self, name: str) -> Parameter:
         """The parameter of this name.

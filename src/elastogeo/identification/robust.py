@@ -34,7 +34,7 @@ def downweighted(systems: Systems, retained: Sequence[str]) -> Systems:
         raise UnsupportedError("a robust estimate needs the model without a reference level; leave reference_force out")
     weighted, last = systems.runs, solve(merged(systems.runs), retained).values
     for _ in range(_STEPS):
-        residual = [run.reading - run.design_of(retained) @ last for run in weighted]
+        residual = [np.sqrt(run.precision) * (run.reading - run.design_of(retained) @ last) for run in weighted]
         weights = np.split(huber_weights(np.concatenate(residual)), np.cumsum([len(r) for r in residual])[:-1])
         weighted = tuple(reweighted(run, w) for run, w in zip(systems.runs, weights, strict=True))
         values = solve(merged(weighted), retained).values

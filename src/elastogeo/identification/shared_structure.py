@@ -23,7 +23,7 @@ _ROUNDING = 1e-9
 """Share of the largest coefficient below which scatter is rounding error."""
 
 
-def shared_harmonic(runs: Sequence[RunSystem], labels: Sequence[str]) -> Harmonic | None:
+def shared_harmonic(runs: Sequence[RunSystem], labels: Sequence[str], circles: int = 1) -> Harmonic | None:
     """The surest harmonic that no parameter explains and that runs share; None if they are too few, or no whole turns.
 
     Parameters
@@ -32,6 +32,8 @@ def shared_harmonic(runs: Sequence[RunSystem], labels: Sequence[str]) -> Harmoni
         Of one circle, no reference taken off.
     labels : sequence of str
         Parameters of the model.
+    circles : int
+        How many circles are looked at in one go: a harmonic is significant if it would be in all of them.
 
     Notes
     -----
@@ -49,7 +51,7 @@ def shared_harmonic(runs: Sequence[RunSystem], labels: Sequence[str]) -> Harmoni
     seen = np.array([back @ run.reading for back, run in zip(backs, runs, strict=True)])
     designs = np.array([back @ run.design_of(labels) for back, run in zip(backs, runs, strict=True)])
     left = _left(seen, designs, _scatter(seen - shared @ seen, freedom))
-    return _surest(left, shared, freedom)
+    return _surest(left, shared, freedom, FALSE_ALARM / len(HARMONICS) / circles)
 
 
 def _waves(angle: Array) -> Array:
@@ -85,7 +87,7 @@ def _left(seen: Array, designs: Array, scatter: Array) -> Array:
     return np.asarray((readings.ravel() - rows / norms @ values).reshape(seen.shape) * scatter)
 
 
-def _surest(left: Array, shared: Array, freedom: int) -> Harmonic:
+def _surest(left: Array, shared: Array, freedom: int, level: float) -> Harmonic:
     """Of what is left, shape (runs, coefficients): the order that runs share most surely."""
     q = len(shared) - freedom
     floor = _ROUNDING * np.abs(left).max()
@@ -99,5 +101,5 @@ def _surest(left: Array, shared: Array, freedom: int) -> Harmonic:
         p_value = float(fdtrc(2 * q, 2 * (freedom - 1), (1.0 - root) / root * (freedom - 1) / q))
         if p_value < surest:
             amplitude = float(np.linalg.norm(common, axis=1).max())
-            surest, found = p_value, Harmonic(order, amplitude, p_value < FALSE_ALARM / len(HARMONICS))
+            surest, found = p_value, Harmonic(order, amplitude, p_value < level)
     return found

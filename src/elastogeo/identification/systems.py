@@ -6,8 +6,8 @@ if it were estimated in each run anew (Frisch, Waugh and Lovell). What is left o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -48,8 +48,14 @@ class RunSystem:
         Columns of the run's own set-up.
     aside : array, shape (k, p + 1)
         How much of these columns the rows held.
+    set_up_names : tuple of str, length k
+        Of the run's own set-up.
+    test : str
+        Name of the test.
     weights : array, shape (m,), or None
         Of the readings, where outliers count less; None if all count one.
+    precision : float
+        What a reading of its test counts against those of other tests: one over its variance, 1 on the average of all.
     """
 
     observations: Observations
@@ -58,7 +64,10 @@ class RunSystem:
     factor: Factor
     own: Array
     aside: Array
+    set_up_names: tuple[str, ...] = ()
+    test: str = ""
     weights: Array | None = None
+    precision: float = 1.0
 
     @property
     def name(self) -> str:
@@ -79,6 +88,16 @@ class RunSystem:
         """Change of each reading per unit of each parameter, shape (m, p)."""
         return self.rows[:, :-1]
 
+    @property
+    def angular(self) -> bool:
+        """Whether its readings, or some of them, are angles."""
+        return bool(self.observations.direction[:, 3:].any())
+
+    @property
+    def counted(self) -> Array | float:
+        """What each reading counts, shape (m,), or one number for all: its weight times the precision of its test."""
+        return self.precision if self.weights is None else self.precision * self.weights
+
     def set_up(self, labels: Sequence[str], values: Array) -> Array:
         """The run's own set-up, shape (k,) [mm], if the parameters have these values."""
         chosen = self.aside[:, [self.factor.labels.index(label) for label in labels]]
@@ -91,7 +110,7 @@ class RunSystem:
 
 @dataclass(frozen=True, slots=True)
 class Systems:
-    """The systems of a test.
+    """The systems of the runs of a test, or of several.
 
     Attributes
     ----------
@@ -99,22 +118,22 @@ class Systems:
         One per column.
     runs : tuple of RunSystem
         In the order of the test, without the reference runs if they are taken off.
-    own : tuple of Source
-        The set-up that every run has for itself.
     references : int
         How many reference runs were averaged and taken off from each run; 0 if none was.
     applied : ForceLevels
         The force levels that were applied, the reference among them.
     ceilings : array, shape (p,)
         Length that each column would have if nothing cancelled (`column_ceilings`).
+    scatter : dict of str to float [mm or rad]
+        Of several tests, the standard deviation of a reading of each. Empty for one test.
     """
 
     sources: tuple[Source, ...]
     runs: tuple[RunSystem, ...]
-    own: tuple[Source, ...]
     references: int
     applied: ForceLevels
     ceilings: Array
+    scatter: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def levels(self) -> tuple[float, ...]:
@@ -122,17 +141,28 @@ class Systems:
         return tuple(sorted({run.force for run in self.runs}))
 
     @property
+    def tests(self) -> tuple[str, ...]:
+        """Names of the tests, in order."""
+        return tuple(dict.fromkeys(run.test for run in self.runs))
+
+    def of(self, test: str) -> Systems:
+        """The systems of one of the tests."""
+        return replace(self, runs=tuple(run for run in self.runs if run.test == test))
+
+    @property
     def strongest(self) -> tuple[RunSystem, ...]:
-        """The runs at the highest force."""
-        most = max(self.levels, key=abs)
-        return tuple(run for run in self.runs if run.force == most)
+        """The runs at the highest force of their test."""
+        most = {test: max((run.force for run in self.runs if run.test == test), key=abs) for test in self.tests}
+        return tuple(run for run in self.runs if run.force == most[run.test])
 
     def range_per_unit(self, labels: Sequence[str]) -> Array:
         """Range that a unit of each parameter gives the readings of a run at the highest force, shape (p,).
 
-        With zero in it, so that what shifts all readings alike counts in full.
+        With zero in it, so that what shifts all readings alike counts in full. Of several tests the greatest; where some
+        read lengths and some angles, that of lengths.
         """
-        parts = [run.design_of(labels) for run in self.strongest]
+        lengths = [run for run in self.strongest if not run.angular]
+        parts = [run.design_of(labels) for run in lengths or self.strongest]
         ranges = [np.maximum(part.max(axis=0), 0.0) - np.minimum(part.min(axis=0), 0.0) for part in parts]
         return np.asarray(np.max(ranges, axis=0))
 
@@ -161,8 +191,10 @@ def run_systems(
     reference: float | None = None,
     own: Sequence[Source] = (),
     spread: ForceSpread | None = None,
+    test: str = "",
+    absent: Collection[str] = (),
 ) -> Systems:
-    """The linear system of every run.
+    """The linear system of every run of a test.
 
     Parameters
     ----------
@@ -177,6 +209,10 @@ def run_systems(
         The set-up that every run has for itself.
     spread : ForceSpread, optional
         How well the forces of the runs are known against one another.
+    test : str
+        Name of the test.
+    absent : collection of str
+        Names of the sources that are of other tests: they move no reading of this one.
 
     Raises
     ------
@@ -186,7 +222,9 @@ def run_systems(
         If a run was not read at the poses of the reference.
     """
     labels = [source.name for source in sources]
-    rows = [design_rows(sources, machine, run) for run in observations]
+    here = [k for k, source in enumerate(sources) if source.name not in absent]
+    acting = [sources[k] for k in here]
+    rows = [_spread_out(design_rows(acting, machine, run), here, len(sources)) for run in observations]
     levels = force_levels((run.force for run in observations), spread)
     forces = [levels.level(run.force) for run in observations]
     applied = force_levels((force for run in observations for force in _applied(run)), spread)
@@ -209,26 +247,61 @@ def run_systems(
     own_columns = [design_rows(own, machine, run)[:, :-1] for run in observations]
     sizes = np.max([np.linalg.norm(columns, axis=0) / np.sqrt(len(columns)) for columns in own_columns], axis=0)
     moving = [k for k in range(len(own)) if sizes[k] > OWN_TOLERANCE]
+    names = tuple(own[k].name for k in moving)
     runs = tuple(
-        _run_system(labels, run, force, r, np.asfortranarray(columns[:, moving]))
+        _run_system(labels, run, force, r, np.asfortranarray(columns[:, moving]), names, test)
         for run, force, r, columns, is_ref in zip(observations, forces, rows, own_columns, is_reference, strict=True)
         if not is_ref
     )
-    ceilings = np.linalg.norm([column_ceilings(sources, machine, run) for run in observations], axis=0)
-    return Systems(tuple(sources), runs, tuple(own[k] for k in moving), references, applied, ceilings)
+    ceilings = np.zeros(len(sources))
+    ceilings[here] = np.linalg.norm([column_ceilings(acting, machine, run) for run in observations], axis=0)
+    return Systems(tuple(sources), runs, references, applied, ceilings)
 
 
-def _run_system(labels: Sequence[str], run: Observations, force: float, rows: Array, own: Array) -> RunSystem:
+def _spread_out(rows: Array, here: Sequence[int], columns: int) -> Array:
+    """Rows of the sources that act in a test, in the columns of all sources."""
+    if len(here) == columns:
+        return rows
+    every = np.zeros((len(rows), columns + 1), order="F")
+    every[:, [*here, columns]] = rows
+    return every
+
+
+def joined(tests: Sequence[Systems]) -> Systems:
+    """The systems of several tests as one; of one test, itself.
+
+    Forces of different tests that agree are one level.
+    """
+    if len(tests) == 1:
+        return tests[0]
+    spread = max((one.applied.spread for one in tests), key=lambda spread: (spread.relative, spread.absolute))
+    runs = [run for one in tests for run in one.runs]
+    levels = force_levels((run.force for run in runs), spread)
+    applied = force_levels((force for one in tests for level in one.applied.members for force in level), spread)
+    ceilings = np.linalg.norm([one.ceilings for one in tests], axis=0)
+    runs = [replace(run, force=levels.level(run.force)) for run in runs]
+    return Systems(tests[0].sources, tuple(runs), 0, applied, ceilings)
+
+
+def _run_system(
+    labels: Sequence[str], run: Observations, force: float, rows: Array, own: Array, names: tuple[str, ...], test: str
+) -> RunSystem:
     aside = own_part(own, rows)
     left = rows - own @ aside
     left[:, :-1][:, np.linalg.norm(left[:, :-1], axis=0) <= ABSORBED * np.linalg.norm(rows[:, :-1], axis=0)] = 0.0
-    return RunSystem(run, force, left, _factor_of(labels, left, own), own, aside)
+    return RunSystem(run, force, left, _factor_of(labels, left, own), own, aside, names, test)
+
+
+def with_precision(run: RunSystem, precision: float) -> RunSystem:
+    """The same run whose readings count so much against those of other tests."""
+    factor = replace(run.factor, triangle=run.factor.triangle * np.sqrt(precision / run.precision))
+    return replace(run, factor=factor, precision=precision)
 
 
 def reweighted(run: RunSystem, weights: Array) -> RunSystem:
     """The same run with a weight for each reading, shape (m,); its own set-up is found anew."""
     more = own_part(run.own, run.rows, weights)
-    rows, root = run.rows - run.own @ more, np.sqrt(weights)[:, np.newaxis]
+    rows, root = run.rows - run.own @ more, np.sqrt(run.precision * weights)[:, np.newaxis]
     factor = _factor_of(run.factor.labels, rows * root, run.own * root)
     return replace(run, rows=rows, aside=run.aside + more, weights=weights, factor=factor)
 

@@ -62,13 +62,8 @@ def geometry_modelled(sources: Sequence[Source], reference: bool, around: bool) 
 
     On a path around a ball that is the machine's; elsewhere the zeros of the sensors are enough.
     """
-    geometric = [source.name for source in sources if not (source.elastic or (around and is_set_up(source)))]
+    geometric = [source.name for source in sources if not (source.elastic or (around and source.set_up))]
     return Check("geometry in the model", reference or bool(geometric), {"geometric": len(geometric)}, decisive=True)
-
-
-def is_set_up(source: Source) -> bool:
-    """Whether a source is of the set-up rather than of the machine."""
-    return source.site[0] in ("tool", "workpiece", "reading")
 
 
 def influences_stated(labels: Sequence[str], reference: bool) -> Check:

@@ -3,6 +3,7 @@
 from elastogeo.observe.about import About
 from elastogeo.observe.bars.ball_bar import LoadedBallBar
 from elastogeo.observe.bars.unloaded import BallBar
+from elastogeo.observe.campaign import Askable, Campaign, campaign_of, with_questions
 from elastogeo.observe.circle import PLANES, Circle, plane_directions
 from elastogeo.observe.contradictions import check_runs, turning
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, ForceInfluence, force_from_pressure
@@ -28,10 +29,12 @@ __all__ = [
     "THESIS_CALIBRATION",
     "About",
     "Approaches",
+    "Askable",
     "BallBar",
     "BallMotion",
     "BallRoller",
     "Calibration",
+    "Campaign",
     "Circle",
     "DisplacementProbes",
     "ForceInfluence",
@@ -58,6 +61,7 @@ __all__ = [
     "StaticForce",
     "Template",
     "approaches",
+    "campaign_of",
     "check_observations",
     "check_runs",
     "check_sees_twist",
@@ -70,4 +74,5 @@ __all__ = [
     "sensitivities",
     "sensor_twist",
     "turning",
+    "with_questions",
 ]

@@ -37,6 +37,8 @@ class Question:
     set_up_per_run : bool
         Whether every run has its own set-up (`Setup.own_to_run`), where none of it is among the parameters and no reference
         is subtracted. If not, a set-up that is not asked for counts as right.
+    by_date : tuple of str
+        In a campaign, names or patterns of what is one parameter for each date; all others are one for all dates.
     """
 
     parameters: tuple[str, ...] = ()
@@ -47,6 +49,7 @@ class Question:
     reciprocal: bool = False
     robust: bool = False
     set_up_per_run: bool = True
+    by_date: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -56,6 +56,8 @@ class Setup(ABC):
         `twist`, `ball-deviations`; empty for none.
     limits : tuple of str
         What its results rest on and cannot show themselves, as constants for which `report` has the sentences.
+    of_instrument : tuple of str
+        Parameters of the set-up that go with the instrument from test to test: the length of a bar.
     template : Template or None
         What a new test begins with.
     """
@@ -65,6 +67,7 @@ class Setup(ABC):
     loads: ClassVar[bool] = True
     extra: ClassVar[str] = ""
     limits: ClassVar[tuple[str, ...]] = ()
+    of_instrument: ClassVar[tuple[str, ...]] = ()
     template: ClassVar[Template | None] = None
 
     @property

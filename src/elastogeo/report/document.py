@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from elastogeo.identification import Check
-from elastogeo.observe import MachineTest
+from elastogeo.observe import Campaign, MachineTest
 from elastogeo.report.sentences import sentence_of
 from elastogeo.version import VERSION
 
@@ -52,6 +52,25 @@ def tested(test: MachineTest, reference_force: float | None) -> dict[str, Any]:
             for run in test.runs
             if run.sha256
         ],
+    }
+
+
+def tested_together(campaign: Campaign, reference_force: float | None) -> dict[str, Any]:
+    """What was tested: of several tests what they have in common, with the files of all."""
+    if not campaign.several:
+        return tested(campaign.only, reference_force)
+    each = {name: tested(test, None) for name, test in campaign.tests.items()}
+    return {
+        "name": campaign.name,
+        "machine": campaign.machine.name,
+        "topology": campaign.machine.topology.compact,
+        "instrument": ", ".join(dict.fromkeys(entry["instrument"] for entry in each.values())),
+        "simulated": campaign.simulated,
+        "reference_force_N": None,
+        "resolution_um": None,
+        "runs": campaign.runs,
+        "about": {},
+        "files": [{**file, "run": f"{name}/{file['run']}"} for name, entry in each.items() for file in entry["files"]],
     }
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
-from elastogeo.observe import MachineTest
+from elastogeo.observe import Campaign, MachineTest, campaign_of
 from elastogeo.report.text import in_micrometres
 from elastogeo.report.view import Section, Table
 
@@ -37,14 +38,50 @@ def head(test: MachineTest) -> tuple[tuple[str, str], ...]:
     return tuple((label, text) for label, text in lines if text)
 
 
-def files_section(test: MachineTest) -> tuple[Section, ...]:
+def campaign_head(campaign: Campaign) -> tuple[tuple[str, str], ...]:
+    """What was tested and how: of one test its head, of several what they have together."""
+    if not campaign.several:
+        return head(campaign.only)
+    tests = campaign.tests.values()
+    readings = sum(len(next(iter(run.columns.values()))) for test in tests for run in test.runs)
+    dates = sorted({test.about.date for test in tests if test.about.date})
+    lines = [
+        ("Machine", f"{campaign.machine.name}, {campaign.machine.topology.compact} {campaign.machine.topology.iso}"),
+        ("Machine serial number", _each_once(test.about.machine_serial for test in tests)),
+        ("Tests", ", ".join(campaign.tests)),
+        ("Instruments", _each_once(test.instrument.replace("-", " ") for test in tests)),
+        ("Instrument serial numbers", _each_once(test.about.instrument_serial for test in tests)),
+        ("Date", " to ".join(dict.fromkeys((dates[0], dates[-1]))) if dates else ""),
+        ("Runs", f"{campaign.runs}, with {readings} readings"),
+        ("Asked for", ", ".join(campaign.asked)),
+    ]
+    return tuple((label, text) for label, text in lines if text)
+
+
+def _each_once(words: Iterable[str]) -> str:
+    return ", ".join(dict.fromkeys(filter(None, words)))
+
+
+def files_section(one: MachineTest | Campaign) -> tuple[Section, ...]:
     """The files that the runs were read from, with their hashes; none where there are none."""
-    rows = tuple((run.name, run.file, run.sha256) for run in test.runs if run.sha256)
+    campaign = campaign_of(one)
+    rows = tuple(
+        (f"{name}/{run.name}" if campaign.several else run.name, run.file, run.sha256)
+        for name, test in campaign.tests.items()
+        for run in test.runs
+        if run.sha256
+    )
     return (Section("Files", tables=(Table(("run", "file", "SHA-256"), rows, words=(0, 1, 2)),)),) if rows else ()
 
 
-def origin(test: MachineTest) -> str:
+def origin(one: MachineTest | Campaign) -> str:
     """Whether the readings, or which of them, are simulated, and from what; empty if all were measured."""
+    campaign = campaign_of(one)
+    if campaign.several:
+        simulated = [name for name, test in campaign.tests.items() if test.simulated]
+        some = f" ({', '.join(simulated)})" if 0 < len(simulated) < len(campaign.tests) else ""
+        return f"Simulated{some}: {campaign.simulated}" if simulated else ""
+    test = campaign.only
     if not test.simulated:
         return ""
     marked = sum(bool(run.simulated) for run in test.runs)

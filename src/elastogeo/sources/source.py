@@ -15,6 +15,8 @@ import numpy as np
 from elastogeo.machine import Array, Site
 from elastogeo.sources.situation import Situation
 
+_POINTS = ("tool", "workpiece")
+
 
 class Driver(Protocol):
     """What drives a source: phi, for every reading."""
@@ -86,6 +88,16 @@ class Source:
     def elastic(self) -> bool:
         """Whether a load drives it."""
         return self.load is not None
+
+    @property
+    def of_test(self) -> bool:
+        """Whether it is of one test and no part of the machine: its set-up, what a reading has by direction."""
+        return self.site[0] == "reading" or (self.site[0] in _POINTS and not self.elastic)
+
+    @property
+    def set_up(self) -> bool:
+        """Whether it is of the set-up: where the two points sit, how long the bar is."""
+        return self.of_test and self.name.startswith("E_")
 
     def column(self, situation: Situation) -> Array:
         """Change of every reading per unit of the parameter, shape (m,): first order, in closed form."""

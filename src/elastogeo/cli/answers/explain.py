@@ -7,11 +7,11 @@ from typing import Annotated
 import typer
 
 import elastogeo as eg
-from elastogeo.cli.options import AsJson, Parameters, Prefer, Reciprocal, Reference, Report, TestPath, reference_level
+from elastogeo.cli.options import AsJson, Parameters, Prefer, Reciprocal, Reference, Report, TestPaths, reference_level
 
 
 def explain(
-    test: TestPath,
+    tests: TestPaths,
     parameters: Parameters = None,
     prefer: Prefer = None,
     reference: Reference = "test",
@@ -22,7 +22,7 @@ def explain(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Say what a test can and cannot distinguish.
+    """Say what a test, or several tests of one machine together, can and cannot distinguish.
 
     \b
     Example, before any run has been made:
@@ -31,7 +31,7 @@ def explain(
     from elastogeo.cli import screen
 
     found = eg.explain(
-        eg.read_test(test, planned=planned),
+        eg.read_campaign(tests, planned=planned),
         parameters=parameters,
         prefer=prefer,
         reference=reference_level(reference),

@@ -1,4 +1,4 @@
-"""`elastogeo identify`: from a test to its parameters, with a verdict and a report."""
+"""`elastogeo identify`: from a test, or several, to parameters, with a verdict and a report."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from elastogeo.cli.options import (
     Reference,
     Report,
     Robust,
-    TestPath,
+    TestPaths,
     WithoutLevels,
     reference_level,
 )
 
 
 def identify(
-    test: TestPath,
+    tests: TestPaths,
     parameters: Parameters = None,
     prefer: Prefer = None,
     reference: Reference = "test",
@@ -30,16 +30,18 @@ def identify(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Identify the parameters that a test asks for.
+    """Identify the parameters that a test asks for, or several tests of one machine together.
 
     \b
-    Example:
+    Examples:
       elastogeo identify my-test --report my-report
+      elastogeo identify xy yz zx
+      elastogeo identify my-campaign
     """
     from elastogeo.cli import screen
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = eg.read_test(test)
+        asked = eg.read_campaign(tests)
         step("identifying")
         result = eg.identify(
             asked,

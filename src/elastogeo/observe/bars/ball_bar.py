@@ -88,6 +88,7 @@ class LoadedBallBar(Setup):
 
     extra: ClassVar = "circularity"
     limits: ClassVar = ("bar length", "bar calibration", "force calibration", "form of the balls")
+    of_instrument: ClassVar = ("E_R0",)
     template: ClassVar = Template(
         title="Loaded ball bar test",
         setup=_SETUP + CIRCLE,

@@ -59,6 +59,7 @@ class BallBar(Setup):
     loads: ClassVar = False
     extra: ClassVar = "circularity"
     limits: ClassVar = ("bar length", "bar calibration", "form of the balls")
+    of_instrument: ClassVar = ("E_R0",)
     template: ClassVar = Template(
         title="Ball bar test",
         setup="[setup]\nfeed_mm_min = 1000\n\n" + CIRCLE,

@@ -63,13 +63,19 @@ def kind_of(result: Identification, members: Sequence[Parameter]) -> str:
     return GEOMETRY if all(name.startswith("E_") for name in errors) else MOTION
 
 
+def _resolution(result: Identification) -> float | None:
+    """The coarsest resolution [um] of the tests that state one."""
+    stated = [test.resolution * UM for test in result.campaign.tests.values() if test.resolution is not None]
+    return max(stated, default=None)
+
+
 def ranked(result: Identification, bars: Sequence[Bar]) -> Figure:
     """Bars with their intervals, the last on top."""
     lines = max(1.25 if "\n" in bar.name else 1.0 for bar in bars)
     figure = new_figure(0.95 + 0.25 * lines * len(bars))
     ax = figure.subplots()
-    if result.test.resolution is not None:
-        resolution = result.test.resolution * UM
+    resolution = _resolution(result)
+    if resolution is not None:
         ax.axvspan(-resolution, resolution, color=FAINT, zorder=0, linewidth=0)
     for k, bar in enumerate(bars):
         ax.barh(k, bar.length, height=0.62, alpha=1.0 if bar.sure else _PALE, zorder=2, **_LOOKS[bar.kind])
@@ -87,7 +93,7 @@ def ranked(result: Identification, bars: Sequence[Bar]) -> Figure:
     beside.spines["left"].set_visible(False)
     force = max((level.force for level in result.levels), key=abs)
     text = f"peak to peak at {force:g} N (µm); line: 95 % interval"
-    ax.set_xlabel(text if result.test.resolution is None else f"{text}; grey: ± resolution")
+    ax.set_xlabel(text if resolution is None else f"{text}; grey: ± resolution")
     kinds = [kind for kind in _LOOKS if any(bar.kind == kind for bar in bars)]
     if len(kinds) > 1:
         handles = [Patch(label=kind, **_LOOKS[kind]) for kind in kinds]

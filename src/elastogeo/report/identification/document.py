@@ -1,6 +1,13 @@
-"""`elastogeo.identification/1`: what one test says.
+"""`elastogeo.identification/1`: what one test says, or several tests of one machine together.
 
-test, verdict : as in `envelope`
+test, verdict : as in `envelope`; of several tests `test` holds what they have in common, and the files of all
+tests : [{name, ..., id, readings, forces_N, rmse_um, scatter_um, rank, alone, rank_so_far, adds, information}], one for each
+    test, in order: the entries of `test`, then the name of the test in the campaign; `rmse_um` against the estimate from
+    all tests, `scatter_um` about its own best fit, which decides what its readings count (null of one test; `rmse_urad`
+    and `scatter_urad` where it reads angles); how many combinations it determines alone, and which `parameters`; how many
+    it determines with those before it, and which parameters only then; `information` is {parameter: share}, 1 less the
+    variance with all tests over that without this one, 1 where only this test determines the parameter
+together : [name], of several tests the `parameters` that none of them determines alone
 by_run : whether the runs are enough for an uncertainty that counts on independent runs; if not, there is none
 parameters : the retained set, [{name, value, unit, standard_uncertainty, interval95, stands_for, peak_to_peak_um, share,
     meaning, axis, elastic, separated, degrees_of_freedom, naive_standard_uncertainty, budget}]
@@ -18,7 +25,7 @@ confounded : [[name, name, ...]], parameters that always produce the same trace 
 rank, columns : how many combinations are determined, of how many parameters
 condition_raw, condition_scaled : of the retained columns as they are, and scaled to unit length
 rmse_um : over all readings
-levels : [{force_N, readings, rmse_um, fitness_percent, elastic_um, geometric_um}], forces and readings less the
+levels : [{test, force_N, readings, rmse_um, fitness_percent, elastic_um, geometric_um}], forces and readings less the
     reference's if one was taken off; the last two are [least, greatest] deviation that compliance, and that geometry
     without the set-up, cause; null unless every parameter is separated
 local : [{forces_N, values: [{name, value, standard_uncertainty, degrees_of_freedom, peak_to_peak_um}]}], from adjacent
@@ -56,8 +63,11 @@ from elastogeo.identification import (
     Local,
     ModelChoice,
     Parameter,
+    TestPart,
 )
-from elastogeo.report.document import UM, document, in_um, tested, verdict_entries
+from elastogeo.report.document import UM, document, in_um, tested, tested_together, verdict_entries
+
+MICRO = 1e6
 
 IDENTIFICATION_SCHEMA = "elastogeo.identification/1"
 
@@ -78,7 +88,9 @@ def identification_json(result: Identification) -> dict[str, Any]:
     return document(
         IDENTIFICATION_SCHEMA,
         {
-            "test": tested(result.test, result.reference_force),
+            "test": tested_together(result.campaign, result.reference_force),
+            "tests": [_test(result, part) for part in result.tests],
+            "together": result.together,
             "by_run": result.by_run,
             "parameters": [_parameter(result, k, parameter) for k, parameter in enumerate(result.parameters)],
             **confounding_entries(result.confounding),
@@ -97,6 +109,24 @@ def identification_json(result: Identification) -> dict[str, Any]:
             "verdict": verdict_entries(result.verdict),
         },
     )
+
+
+def _test(result: Identification, part: TestPart) -> dict[str, Any]:
+    """What one test of a campaign adds."""
+    unit = "urad" if part.angular else "um"
+    return {
+        **tested(result.campaign.tests[part.name], result.reference_force),
+        "id": part.name,
+        "readings": part.readings,
+        "forces_N": part.forces,
+        f"rmse_{unit}": part.rmse * (MICRO if part.angular else UM),
+        f"scatter_{unit}": None if part.scatter is None else part.scatter * (MICRO if part.angular else UM),
+        "rank": part.rank,
+        "alone": part.alone,
+        "rank_so_far": part.rank_so_far,
+        "adds": part.adds,
+        "information": {name: shares[part.name] for name, shares in result.information.items()},
+    }
 
 
 def confounding_entries(found: Confounding) -> dict[str, Any]:
@@ -166,6 +196,7 @@ def _budget_line(line: BudgetLine) -> dict[str, Any]:
 
 def _level(level: Level, separated: bool) -> dict[str, Any]:
     return {
+        "test": level.test,
         "force_N": level.force,
         "readings": level.readings,
         "rmse_um": level.rmse * UM,

@@ -15,7 +15,7 @@ from __future__ import annotations
 from typing import Any
 
 from elastogeo.identification import Explanation
-from elastogeo.report.document import document, tested
+from elastogeo.report.document import document, tested_together
 from elastogeo.report.identification.document import confounding_entries
 
 EXPLANATION_SCHEMA = "elastogeo.explanation/1"
@@ -23,11 +23,11 @@ EXPLANATION_SCHEMA = "elastogeo.explanation/1"
 
 def explanation_json(explained: Explanation) -> dict[str, Any]:
     """What a test can tell apart as one JSON object (`elastogeo.explanation/1`)."""
-    test, confounding = explained.test, explained.confounding
+    campaign, confounding = explained.campaign, explained.confounding
     return document(
         EXPLANATION_SCHEMA,
         {
-            "test": tested(test, test.question.reference_force),
+            "test": tested_together(campaign, campaign.question.reference_force),
             **confounding_entries(confounding),
             "groups": confounding.groups,
             "retained": [{"name": name, "stands_for": confounding.stands_for(name)} for name in confounding.retained],

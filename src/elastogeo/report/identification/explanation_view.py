@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from elastogeo.identification import Explanation
-from elastogeo.report.head import head
+from elastogeo.report.head import campaign_head
 from elastogeo.report.identification.explanation_document import explanation_json
 from elastogeo.report.identification.reciprocity import reciprocity_words
 from elastogeo.report.identification.words import confounding_words
@@ -15,25 +15,26 @@ from elastogeo.report.view import KeyValue, Section, Table, View, views
 @views(Explanation)
 def explanation_view(explained: Explanation) -> View:
     """All that is shown of an explanation."""
-    test, found = explained.test, explained.confounding
+    campaign, found = explained.campaign, explained.confounding
     asked = len(found.labels)
     rows = tuple((name, pretty(combination(found.stands_for(name)))) for name in found.retained)
     table = Table(("parameter", "stands for"), rows, words=(0, 1), title="What is determined")
     words = tuple(map(pretty, confounding_words(found)))
     groups = tuple(f"Always together: {', '.join(group)}" for group in found.groups if len(group) > 1)
     bought = () if explained.reciprocity is None else (pretty(reciprocity_words(explained.reciprocity)),)
+    these = "these tests determine" if campaign.several else "this test determines"
     answer = (
         f"All {asked} parameters are determined."
         if found.rank == asked
-        else f"{asked} parameters, of which this test determines {found.rank} combinations."
+        else f"{asked} parameters, of which {these} {found.rank} combinations."
     )
     document = explanation_json(explained)
     return View(
         kind="What a test distinguishes",
-        title=test.machine.name,
-        subtitle=test.name,
+        title=campaign.machine.name,
+        subtitle=campaign.name,
         origin="",
-        head=head(test),
+        head=campaign_head(campaign),
         sentence=answer,
         values=(
             KeyValue("rank", f"{found.rank} of {asked}"),

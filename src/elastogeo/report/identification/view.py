@@ -6,11 +6,12 @@ from collections.abc import Iterator
 
 from elastogeo.estimate import Repeatability
 from elastogeo.identification import CONDITION_LIMIT, Consistency, Identification, Level, ModelChoice, Parameter
-from elastogeo.report.head import files_section, head, origin
+from elastogeo.report.head import campaign_head, files_section, origin
 from elastogeo.report.identification.budgets import budget_tables, degrees, uncertainty_table
 from elastogeo.report.identification.document import identification_json
 from elastogeo.report.identification.models import SHOWN, model_said, models_words, ratio_said
 from elastogeo.report.identification.pictures import picture
+from elastogeo.report.identification.tests import information_table, test_table, together_words
 from elastogeo.report.identification.words import (
     banner,
     change_words,
@@ -44,23 +45,23 @@ _MOVED = 1e-4
 @views(Identification)
 def identification_view(result: Identification) -> View:
     """All that is shown of an identification."""
-    test = result.test
+    campaign = result.campaign
     document = identification_json(result)
     return View(
         kind="Identification",
-        title=test.machine.name,
-        subtitle=test.name,
-        origin=origin(test),
-        head=head(test),
+        title=campaign.machine.name,
+        subtitle=campaign.name,
+        origin=origin(campaign),
+        head=campaign_head(campaign),
         sentence=answer(result),
         values=key_values(result),
-        picture=picture("traces", result),
+        picture=picture("contributions" if campaign.several else "traces", result),
         checks=said(result.verdict),
         document=document,
         rows=document["parameters"],
         alert=(*banner(result), *(pretty(label(p)) for p in result.parameters if not p.separated)),
-        tables=(parameter_table(result), level_table(result)),
-        notes=(*stands_for(result), *log_words(test)),
+        tables=(*([test_table(result)] if campaign.several else []), parameter_table(result), level_table(result)),
+        notes=(*together_words(result), *stands_for(result), *log_words(campaign)),
         sections=tuple(_sections(result)),
     )
 
@@ -138,15 +139,18 @@ def stands_for(result: Identification) -> tuple[str, ...]:
 
 
 def _sections(result: Identification) -> Iterator[Section]:
+    one = not result.campaign.several
+    if not one:
+        yield Section("The tests", together_words(result), tables=(test_table(result), information_table(result)))
     yield Section(
         "Parameters",
         paragraphs=tuple(structure_words(result)),
         pictures=(picture("contributions", result),),
         tables=(parameter_table(result),),
     )
-    if len({p.elastic for p in result.parameters if p.axis}) == 2 and all_separated(result):
+    if one and len({p.elastic for p in result.parameters if p.axis}) == 2 and all_separated(result):
         yield Section("Compliance and geometry apart", pictures=(picture("separation", result),))
-    yield Section("Fit", pictures=(picture("residuals", result),), tables=(level_table(result),))
+    yield Section("Fit", pictures=(picture("residuals", result),) if one else (), tables=(level_table(result),))
     yield _uncertainty(result)
     if result.models is not None and result.models.supported is not None:
         yield _models(result, result.models)
@@ -164,7 +168,7 @@ def _sections(result: Identification) -> Iterator[Section]:
     yield _confounding(result)
     yield _method(result)
     yield Section("What to keep in mind", points=tuple(map(pretty, keep_in_mind(result))))
-    yield from files_section(result.test)
+    yield from files_section(result.campaign)
 
 
 def _uncertainty(result: Identification) -> Section:
@@ -272,7 +276,7 @@ def _confounding(result: Identification) -> Section:
     return Section(
         f"What this test {'distinguishes' if whole else 'cannot distinguish'}",
         tuple(map(pretty, confounding_words(found))),
-        (picture("patterns", result),),
+        (picture("patterns", result),) if not result.campaign.several else (),
         tables,
     )
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from elastogeo.estimate import Confounding
 from elastogeo.identification import SCATTER, SIGNIFICANT, Identification, Parameter
-from elastogeo.observe import MachineTest
+from elastogeo.observe import Campaign
 from elastogeo.report.numbers import micro, probability, significant
 from elastogeo.report.sentences import sentence_of
 from elastogeo.report.text import all_separated
@@ -125,24 +125,27 @@ def keep_in_mind(result: Identification) -> list[str]:
     if result.consistency is None:
         words += [_negative(p) for p in result.parameters if _impossible(p)]
     gains = [name for name in named if _GAIN.fullmatch(name)]
+    tests = result.campaign.tests.values()
+    limits = {limit for test in tests for limit in test.setup.limits}
     if gains:
         verb, it = ("carries", "its sum") if len(gains) == 1 else ("carry", "their common part")
         length, source = "bar's length", "bar's calibration"
-        if "touching radius" in result.test.setup.limits:
+        if "touching radius" in limits:
             length, source = "radius at which ball and roller touch", "radii"
         words.append(f"{listed(gains)} {verb} the error of the {length}: {it} is as good as the {source}.")
-    if "bar calibration" in result.test.setup.limits:
-        force = "the force (its gauge, its calibration) and " if result.test.setup.loads else ""
+    if "bar calibration" in limits:
+        loads = any(test.setup.loads for test in tests)
+        force = "the force (its gauge, its calibration) and " if loads else ""
         words.append(
             f"Results are only as traceable as {force}the bar calibration that was entered; the form error of the balls, "
             f"which can reach 30 µm, is taken for an error of the machine."
         )
-    if "motor constants" in result.test.setup.limits:
+    if "motor constants" in limits:
         words.append(
             "Results are only as traceable as the motor constants, the transmissions and their efficiency, and the set-up's "
             "compliance that were entered; the force is that of a slow motion, with the roller rolling."
         )
-    return words + assumptions(result.test)
+    return words + assumptions(result.campaign)
 
 
 def structure_words(result: Identification) -> list[str]:
@@ -156,20 +159,21 @@ def structure_words(result: Identification) -> list[str]:
     return ["The true uncertainty is larger than U: the residuals have structure (see the verdict), which U does not cover."]
 
 
-def assumptions(test: MachineTest) -> list[str]:
+def assumptions(campaign: Campaign) -> list[str]:
     """What of the machine is assumed, in one sentence, and what was done to the logs of the runs; or nothing."""
-    assumed = "; ".join(text.rstrip(".") for text in test.machine.assumed)
-    return [*([f"Assumed, not measured, of the machine: {assumed}."] if assumed else []), *log_words(test)]
+    assumed = "; ".join(text.rstrip(".") for text in campaign.machine.assumed)
+    return [*([f"Assumed, not measured, of the machine: {assumed}."] if assumed else []), *log_words(campaign)]
 
 
-def log_words(test: MachineTest) -> list[str]:
+def log_words(campaign: Campaign) -> list[str]:
     """What was done to the logs before they became runs: each sentence once, with the runs that it holds for."""
     runs: dict[str, list[str]] = {}
-    for run in test.runs:
-        for note in run.notes:
-            runs.setdefault(note, []).append(run.name)
+    for name, test in campaign.tests.items():
+        for run in test.runs:
+            for note in run.notes:
+                runs.setdefault(note, []).append(f"{name}/{run.name}" if campaign.several else run.name)
     return [
-        f"Log of {'every run' if len(names) == len(test.runs) else listed(names)}: {note.rstrip('.')}."
+        f"Log of {'every run' if len(names) == campaign.runs else listed(names)}: {note.rstrip('.')}."
         for note, names in runs.items()
     ]
 

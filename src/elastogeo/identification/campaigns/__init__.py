@@ -1,0 +1,1 @@
+"""Many tests of one machine as one system: what belongs to which test, what each counts, and what each adds."""
