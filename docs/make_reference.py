@@ -24,14 +24,14 @@ This page is written from the docstrings by `docs/make_reference.py`.
 
 GROUPS = {
     "Read and make": (
-        "read_test", "new_test", "simulate", "read_machine", "machines", "read_drives", "read_log", "read_run",
+        "read_test", "read_campaign", "new_test", "simulate", "read_machine", "machines", "read_drives", "read_log", "read_run",
         "inspect_file", "example_test",
     ),
     "Ask": (
         "identify", "explain", "diagnose", "what_if", "compare", "map_stiffness", "evaluate_static", "evaluate_positioning",
         "identify_drives", "calibrate",
     ),
-    "What comes back": ("Result", "Estimate", "MachineTest", "Machine"),
+    "What comes back": ("Result", "Estimate", "MachineTest", "Campaign", "Machine"),
     "What may go wrong": ("ElastogeoError", "InputError", "UnsupportedError"),
 }  # fmt: skip
 

@@ -44,7 +44,7 @@ def test_no_name_of_the_face_is_a_room() -> None:
 
 
 def test_a_name_that_is_not_of_the_face_says_which_are() -> None:
-    with pytest.raises(AttributeError, match=r"elastogeo has no 'idntify'; it has ElastogeoError, .*identify"):
+    with pytest.raises(AttributeError, match=r"elastogeo has no 'idntify'; it has Campaign, .*identify"):
         eg.idntify  # noqa: B018
 
 

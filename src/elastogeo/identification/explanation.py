@@ -14,7 +14,7 @@ from elastogeo.identification.question import (
     with_question,
 )
 from elastogeo.identification.reciprocity import Reciprocity
-from elastogeo.observe import Askable, Campaign, campaign_of
+from elastogeo.observe import Askable, Campaign, MachineTest, campaign_of
 from elastogeo.result import Result
 
 
@@ -34,6 +34,17 @@ class Explanation(Result):
     campaign: Campaign
     confounding: Confounding
     reciprocity: Reciprocity | None = None
+
+    @property
+    def test(self) -> MachineTest:
+        """The test that this is said of.
+
+        Raises
+        ------
+        InputError
+            If there are several.
+        """
+        return self.campaign.only
 
 
 def explain(one: Askable, **asked: Unpack[Asked]) -> Explanation:
