@@ -24,8 +24,8 @@ This page is written from the docstrings by `docs/make_reference.py`.
 
 GROUPS = {
     "Read and make": (
-        "read_test", "read_campaign", "new_test", "simulate", "read_machine", "machines", "read_drives", "read_log", "read_run",
-        "inspect_file", "example_test",
+        "read_test", "read_campaign", "new_test", "simulate", "read_machine", "machines", "read_drives", "read_log",
+        "read_run", "inspect_file", "example_test",
     ),
     "Ask": (
         "identify", "explain", "diagnose", "what_if", "compare", "map_stiffness", "evaluate_static", "evaluate_positioning",
