@@ -30,7 +30,7 @@ def identify(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Identify the parameters that a test asks for, or several tests of one machine together.
+    """Identify the parameters that a test, or several together, ask for.
 
     \b
     Examples:
