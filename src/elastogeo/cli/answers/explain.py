@@ -22,7 +22,7 @@ def explain(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Say what a test, or several together, can and cannot distinguish.
+    """Say what one test or several can and cannot tell apart.
 
     \b
     Example, before any run has been made:

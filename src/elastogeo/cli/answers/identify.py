@@ -30,7 +30,7 @@ def identify(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Identify the parameters that a test, or several together, ask for.
+    """Identify the parameters that one test or several ask for.
 
     \b
     Examples:
