@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from elastogeo.errors import InputError
+from elastogeo.errors import InputError, MachineError
 from elastogeo.estimate import Confounding, confounding, factor_blocks
 from elastogeo.formats import find_machine
 from elastogeo.identification import identify
@@ -139,6 +139,8 @@ def test_bad_set_ups_are_refused() -> None:
         replace(good, point=(0.0, float("nan"), 0.0))
     with pytest.raises(InputError, match="displacement reaches 60 mm; are they micrometres"):
         good.observe(hermle(), Run("one", {**columns, "displacement": np.full(3, 60.0)}))
+    with pytest.raises(MachineError, match="the command of axis Z at pose 1 is nan"):
+        good.observe(hermle(), Run("one", {**columns, "z": np.array([0.0, np.nan, 0.0])}))
 
 
 @pytest.mark.parametrize("across", [("X",), ("X", "Y"), ("A", "Y", "X")], ids="".join)

@@ -7,7 +7,7 @@ motion as in the tests K1 to K4 of ISO 10791-6. What the ball moves is read by t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
@@ -154,6 +154,11 @@ class SphereNest(Setup):
     def quantities(self) -> tuple[str, ...]:
         """Columns that a run file must have; beside them its rotary axes, or its angle."""
         return self.readings
+
+    @property
+    def file_units(self) -> Mapping[str, str]:
+        """Positions of linear axes stand in millimetres."""
+        return dict.fromkeys("xyz", "mm")
 
     @property
     def pose_quantity(self) -> str:

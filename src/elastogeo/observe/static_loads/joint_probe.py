@@ -7,9 +7,9 @@ alone; at any other point the rotations too.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 
@@ -23,7 +23,6 @@ from elastogeo.machine import (
     Machine,
     Point,
     loop_frames,
-    workpiece_ball,
 )
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector
@@ -40,7 +39,6 @@ from elastogeo.observe.static_loads.load import (
     force_sizes,
     force_vectors,
     planned,
-    static_commands,
     with_lever,
 )
 from elastogeo.observe.template import FORCE, Template
@@ -52,11 +50,12 @@ sensor = [1, 0, 0]               # along which it reads, in the frame of that jo
 point_mm = [0, 0, 0]             # where it touches, in the same frame: at its origin no rotation of the joint is seen
 direction = [1, 0, 0]            # of the force on the tool
 pose = { @CENTRE@ }            # where the machine stands
+places = { Z_mm = [-150, 150] }  # of the simulation, cycle by cycle; measured runs have them as columns (z_mm)
 """
 
 _SIMULATION = """\
-readings = 120                   # 40 of each loading cycle, from zero to the run's force and back
-end_deg = 1080
+readings = 160                   # 40 of each loading cycle, from zero to the run's force and back
+end_deg = 1440
 
 [imperfection]
 noise_um = 0.05
@@ -75,8 +74,9 @@ E_R0 = 0.002
 class JointProbe(Setup):
     """Set-up of a displacement probe across one joint, or several in a row.
 
-    A run stands still, as with a static force; runs at several places name them by columns of axis positions (`z_mm`). The
-    probe's zero is a parameter like others: ask for `E_R0` with the compliances, or zero the probe without load.
+    The machine stands still while it is read; the places of a run are columns of axis positions (`z_mm`), and two of them
+    tell the compliance for a force from that for its moment, whose lever changes. The probe's zero is a parameter like
+    others: ask for `E_R0` with the compliances, or zero the probe without load.
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ class JointProbe(Setup):
     direction : 3-vector or None
         Of the force on the tool, in the foundation; None if the runs record `force_x`, `force_y`, `force_z`.
     pose : mapping of str to float [mm, rad]
-        Axis commands; an axis not named is at zero.
+        Axis commands where a run has no column of them; an axis not named is at zero.
     lever : tuple of 3 float [mm]
         From the tool point to where the force acts, in the foundation.
     tool : tuple of 3 float or None [mm]
@@ -98,6 +98,8 @@ class JointProbe(Setup):
     ramp : bool
         For the simulation alone: whether a run without a column of its force loads to it and unloads (one turn of the
         simulation's angle is one cycle), rather than being read at this force throughout.
+    places : mapping of str to tuple of float [mm, rad]
+        For the simulation alone: where axes stand in one turn of its angle after the other, over and over.
     """
 
     across: tuple[str, ...]
@@ -108,15 +110,17 @@ class JointProbe(Setup):
     lever: Point = (0.0, 0.0, 0.0)
     tool: Point | None = None
     ramp: bool = True
+    places: Annotated[Mapping[str, tuple[float, ...]], MM_OR_RAD] = field(default_factory=dict)
 
     limits: ClassVar = ("force", "sensor")
     template: ClassVar = Template(
         title="Displacement probe across a joint",
         setup=_SETUP,
-        columns="force_N (of every reading), displacement_um",
+        columns="force_N (of every reading), displacement_um, z_mm (and other positions that change)",
         simulation=_SIMULATION,
         machine="huron_kx8",
         levels=(250.0, 500.0, 750.0),
+        repeats=2,
         influences=FORCE,
     )
 
@@ -136,6 +140,11 @@ class JointProbe(Setup):
         return (*force_columns(self.direction), "displacement")
 
     @property
+    def file_units(self) -> Mapping[str, str]:
+        """Positions of linear axes stand in millimetres."""
+        return dict.fromkeys("xyz", "mm")
+
+    @property
     def pose_quantity(self) -> str:
         """The size of the force."""
         return "force"
@@ -145,7 +154,8 @@ class JointProbe(Setup):
         seen = np.hstack([self.sensor, np.cross(self.point, self.sensor)])
         letters = "".join(letter for letter, part in zip(COMPONENTS, seen, strict=True) if part)
         first, *others = self.across
-        return (f"C_[{letters}]?{first}", *(f"C_[XYZABC]?{axis}" for axis in others), "E_R0")
+        letters = letters if len(letters) == 1 else f"[{letters}]"
+        return (f"C_{letters}?{first}", *(f"C_[XYZABC]?{axis}" for axis in others), "E_R0")
 
     def facts(self) -> tuple[SetupFact, ...]:
         """Across what the probe reads and where, the direction of the force, where the machine stands."""
@@ -164,16 +174,19 @@ class JointProbe(Setup):
         Raises
         ------
         InputError
-            If the run lacks a column or a force, moves, or has a value that is no finite number; if the machine has no such
-            joints in a row.
+            If the run lacks a column or a force, or has a value that is no finite number; if the machine has no such joints
+            in a row.
         """
         _check_in_a_row(machine, self.across)
         columns = recorded(run, self.quantities, optional="force")
         count = len(columns["displacement"])
         tool = np.array(machine.tool if self.tool is None else self.tool)
-        place = static_commands(machine, run, self.pose)
-        commands = np.repeat(commands_row(machine, place), count, axis=0)
-        line = self._line(loop_frames(machine, commands[:1], tool))
+        commands = np.asfortranarray(np.repeat(commands_row(machine, self.pose), count, axis=0))
+        for axis in machine.axes:
+            if axis.lower() in run.columns:
+                commands[:, machine.index(axis)] = run.columns[axis.lower()]
+        frames = loop_frames(machine, commands, tool)
+        opposite = frames.workpiece.components(frames.point - frames.workpiece.origin)
         force = force_vectors(run, self.direction, count, run.force)
         sizes = force_sizes(force, self.direction)
         observations = Observations(
@@ -184,12 +197,12 @@ class JointProbe(Setup):
             velocity=np.zeros_like(commands),
             acceleration=np.zeros_like(commands),
             centre=np.array([self.pose.get(axis, 0.0) for axis in machine.axes]),
-            direction=np.asfortranarray(np.repeat(line, count, axis=0)),
+            direction=self._line(frames, count),
             wrench=with_lever(force, np.array([self.lever])),
             reading=columns["displacement"],
             correction=np.zeros(count),
             tool=tool,
-            workpiece=workpiece_ball(machine, place, tool),
+            workpiece=np.broadcast_to(opposite, (count, 3)),
             span=self.across,
         )
         check_observations(observations)
@@ -201,17 +214,23 @@ class JointProbe(Setup):
     ) -> Run:
         """The run with the displacements that the probe would give at its forces."""
         columns = planned(machine, run, self.direction, ramp=self.ramp)
+        if self.places and "angle" in run.columns:
+            turn = np.floor(np.asarray(run.columns["angle"]) / (2 * np.pi)).astype(int)
+            for axis, places in self.places.items():
+                columns.setdefault(axis.lower(), np.array(places)[turn % len(places)])
         count = max(map(len, (columns or run.columns).values()), default=0)
         blank = self.observe(machine, replace(run, columns={**columns, "displacement": np.zeros(count)}))
         true = respond(replace(blank, wrench=blank.wrench * imperfection.force_factor(random)))
         return replace(run, columns={**columns, "displacement": imperfection.noisy(true - blank.reading, random)})
 
-    def _line(self, frames: LoopFrames) -> Array:
-        """The probe's line as a twist at the tool point, shape (1, 6): its direction, and the moment of it there."""
+    def _line(self, frames: LoopFrames, count: int) -> Array:
+        """The probe's line as a twist at the tool point, shape (m, 6): its direction, and the moment of it there."""
         carriage = frames.joints[self.across[0]].motion
         along = carriage.vector(unit_vector(self.sensor, "the direction of the sensor"))
         touched = carriage.point(np.array(self.point))
-        return np.hstack([along, np.cross(touched - frames.point, along)])
+        line = np.empty((count, 6), order="F")
+        line[:, :3], line[:, 3:] = along, np.cross(touched - frames.point, along)
+        return line
 
 
 def _check_in_a_row(machine: Machine, across: Sequence[str]) -> None:
