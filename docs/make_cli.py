@@ -1,11 +1,10 @@
 """Write the reference of the command line, docs/cli.md, from the help texts of the commands: `python docs/make_cli.py`."""
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
-from elastogeo.cli.app import commands
+from typer.testing import CliRunner
+
+from elastogeo.cli.app import app, commands
 
 PAGE = Path(__file__).with_name("cli.md")
 INTRODUCTION = """\
@@ -27,11 +26,10 @@ def reference() -> str:
 
 def section(*command: str) -> str:
     """The help text of one command."""
-    environment = {**os.environ, "COLUMNS": "100", "TERMINAL_WIDTH": "100", "NO_COLOR": "1"}
-    line = [sys.executable, "-m", "elastogeo", *command, "--help"]
-    shown = subprocess.run(line, capture_output=True, text=True, check=True, env=environment).stdout
+    as_shown = {"prog_name": "elastogeo", "terminal_width": 78, "catch_exceptions": False}
+    shown = CliRunner(env={"NO_COLOR": "1"}).invoke(app, [*command, "--help"], **as_shown)
     title = " ".join(["elastogeo", *command])
-    text = "\n".join(part.rstrip() for part in shown.strip().splitlines()).replace("python -m elastogeo", "elastogeo")
+    text = "\n".join(part.rstrip() for part in shown.stdout.strip().splitlines())
     return f"## {title}\n\n```text\n{text}\n```\n"
 
 

@@ -194,6 +194,11 @@ class Case:
         return f"{self.instrument}-{self.arrangement}"
 
     @property
+    def is_typical(self) -> bool:
+        """Whether it is one of a few, for what takes many draws."""
+        return self.arrangement in ARRANGEMENTS[::5]
+
+    @property
     def loads(self) -> bool:
         return instrument_named(self.instrument).loads
 
@@ -277,7 +282,7 @@ def any_case(request: pytest.FixtureRequest) -> Case:
     return request.param
 
 
-@pytest.fixture(scope="session", params=[c for c in CASES if c.arrangement in ARRANGEMENTS[::5]], ids=str)
+@pytest.fixture(scope="session", params=[c for c in CASES if c.is_typical], ids=str)
 def typical(request: pytest.FixtureRequest) -> Case:
     """A few cases, for what takes many draws."""
     return request.param

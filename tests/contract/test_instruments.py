@@ -41,6 +41,7 @@ GEOMETRIC_SIZE = {"mm/mm": 3e-5, "mm/mm^2": 2e-7, "rad/mm": 2e-7, "rad/mm^2": 1e
 
 DRAWS = 2000
 SHORT_DRAWS = 400
+"""For what is drawn in every arrangement, after a few have had all draws."""
 READINGS = 12
 NOISE = 1e-4
 STEPS = np.array([1.0, -1.0, 0.5, -0.5])
@@ -250,6 +251,7 @@ FORCE_PLANS = {
 def test_intervals_cover_at_their_rate(case: Case, plan: str) -> None:
     """Noise is drawn per run, at every reading; the reference's mean is taken off, so its noise is shared by all."""
     forces, reference, repeats = FORCE_PLANS[plan]
+    draws = DRAWS if case.is_typical else SHORT_DRAWS
     test = case.test(
         forces, readings=READINGS, parameters=("C_XX*", "C_YY*", "C_ZZ*", "C_CC*"), reference=reference, repeats=repeats
     )
@@ -259,7 +261,7 @@ def test_intervals_cover_at_their_rate(case: Case, plan: str) -> None:
     random = np.random.default_rng(95)
     readings = len(systems.runs[0].rows)
     inside = np.zeros(found.rank)
-    for _ in range(DRAWS):
+    for _ in range(draws):
         shared = NOISE * random.standard_normal((systems.references, readings)).mean(axis=0) if systems.references else 0.0
         blocks = []
         for run in systems.runs:  # the truth is zero: least squares is linear
@@ -268,7 +270,7 @@ def test_intervals_cover_at_their_rate(case: Case, plan: str) -> None:
             blocks.append(block)
         low, high = solve(factor_blocks(labels, blocks), found.retained, noise).interval().T
         inside += (low <= 0) & (high >= 0)
-    check_coverage(inside, DRAWS, f"{case}, {plan}")
+    check_coverage(inside, draws, f"{case}, {plan}")
 
 
 def test_intervals_cover_at_their_rate_from_simulation_to_result(case_of: Callable[[str], Case]) -> None:
@@ -276,13 +278,14 @@ def test_intervals_cover_at_their_rate_from_simulation_to_result(case_of: Callab
     test = case_of("wFYXt-XY").test((36.0, 112.0, 490.0), readings=12, parameters=["planar-xy"], reference=36.0)
     truth = {name: value for name, value in random_truth(test).items() if name in names_of(test)}
     inside: Array = np.zeros(6)
-    for seed in range(SHORT_DRAWS):
+    draws = SHORT_DRAWS // 2
+    for seed in range(draws):
         result = identify(simulate(test, truth, Imperfection(noise=NOISE), seed=seed, exact=False))
         assert all(parameter.interval is None for parameter in result.parameters)
         for k, (parameter, (low, high)) in enumerate(zip(result.parameters, result.naive.interval(), strict=True)):
             stated = sum(c * truth[name] for name, c in parameter.stands_for.items())
             inside[k] += low <= stated <= high
-    check_coverage(inside, SHORT_DRAWS, "simulation to result")
+    check_coverage(inside, draws, "simulation to result")
 
 
 def names_of(test: MachineTest) -> set[str]:

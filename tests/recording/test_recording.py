@@ -102,7 +102,7 @@ def test_a_recording_ends_by_its_duration_and_is_gone_on_with_when_the_server_is
     assert all(channel["samples"] > 0 for channel in summary["channels"])
     assert summary["gaps"] == []
     cable.whole = False
-    recorder = rig.Recorder(cable.port, folder, ("--batch-s", "0.2"))
+    recorder = rig.Recorder(cable.port, folder, plan="timeout_s = 2\nbatch_s = 0.2")  # it gives a connection up after 6 s
     recorder.wait_for("Trying again in")
     cable.whole = True
     recorder.wait_for_parts(1)
