@@ -59,7 +59,7 @@ def change(folder: Path, old: str, new: str, file: str = "runs/x-500N.csv") -> P
             ("Static compliance and hysteresis", "Hysteresis at a force", "C_XXX stands", "energy is lost, not gained"),
         ),
         ("rig", ("Straight line through all runs", "9 of 9 runs say nothing of hysteresis")),
-        ("probes", ("Cartesian stiffness [N/µm]", "Principal directions, the softest first", "reciprocity: C_ij")),
+        ("probes", ("Cartesian stiffness [N/µm]", "Principal directions, the softest first", "3 runs are too few")),
         ("frame", ("Twist of the tool at the greatest load", "suspect", "No sensor stands out of the 12")),
     ],
 )

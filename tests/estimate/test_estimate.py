@@ -32,12 +32,21 @@ def test_the_inverse_has_the_same_relative_uncertainty() -> None:
     assert found.degrees_of_freedom == 12
 
 
+def test_a_value_whose_uncertainty_nothing_shows_has_no_interval() -> None:
+    found = Estimate(4.0, float("inf"))
+    assert not found.known
+    assert Estimate(4.0, 0.0).known
+    assert found.interval() == (-float("inf"), float("inf"))
+    assert found.inverse() == Estimate(0.25, float("inf"))
+    assert found.scaled(-2.0) == Estimate(-8.0, float("inf"))
+
+
 def test_the_inverse_of_what_may_be_zero_is_refused() -> None:
     with pytest.raises(UnsupportedError, match=r"interval -0.96 to 2.96, which holds zero: its inverse is unbounded"):
         Estimate(1.0, 1.0).inverse()
 
 
-@pytest.mark.parametrize("wrong", [(float("nan"), 1.0), (1.0, float("inf")), (1.0, -1.0)])
+@pytest.mark.parametrize("wrong", [(float("nan"), 1.0), (1.0, float("nan")), (1.0, -1.0)])
 def test_what_is_no_estimate_is_refused(wrong: tuple[float, float]) -> None:
     with pytest.raises(InputError, match="is no estimate"):
         Estimate(*wrong)

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy import stats
 
 from elastogeo.errors import DegreesOfFreedomError, InputError, RankError, UnsupportedError
+from elastogeo.identification.static_tests.by_run import Counted
 from elastogeo.identification.static_tests.cartesian import (
     CartesianCompliance,
     cartesian_compliance,
     cartesian_from_vectors,
     cartesian_of,
+    with_influences,
 )
 from elastogeo.machine import Array, Machine, parse_topology
 from elastogeo.observe import Circle, LoadedBallBar, Run
@@ -25,9 +29,13 @@ NOISE = 2e-4
 FORCES = 400 * np.random.default_rng(4).standard_normal((30, 3))
 
 
+ANEW = np.arange(len(FORCES))
+"""Each force is put on anew: a run of its own."""
+
+
 def noisy(seed: int, truth: Array = TRUE, noise: float = NOISE) -> CartesianCompliance:
     random = np.random.default_rng(seed)
-    return cartesian_from_vectors(FORCES, FORCES @ truth.T + noise * random.standard_normal(FORCES.shape))
+    return cartesian_from_vectors(FORCES, FORCES @ truth.T + noise * random.standard_normal(FORCES.shape), ANEW)
 
 
 def test_vectors_without_noise_give_the_matrix_whether_symmetric_or_not() -> None:
@@ -59,7 +67,7 @@ def test_intervals_cover_at_their_rate() -> None:
         low, high = np.moveaxis(found.interval(), -1, 0)
         elements += (low <= TRUE) & (high >= TRUE)
         K, covariance = found.stiffness()
-        half = stats.t.ppf(0.975, found.degrees_of_freedom[0]) * np.sqrt(np.diag(covariance)).reshape(3, 3)
+        half = stats.t.ppf(0.975, found.degrees_of_freedom.min()) * np.sqrt(np.diag(covariance)).reshape(3, 3)
         stiffness += np.abs(K - K_true) <= half
         for k, one in enumerate(found.principal()):
             least, most = one.compliance.interval()
@@ -69,7 +77,7 @@ def test_intervals_cover_at_their_rate() -> None:
     for rates in (elements / draws, stiffness / draws, principal / draws):
         assert (rates >= low).all(), rates
         assert (rates <= high).all(), rates
-    assert low <= 1 - alarms / draws <= high
+    assert 1 - alarms / draws >= low  # by runs of few degrees of freedom the test errs to the safe side
 
 
 def test_principal_directions_turn_as_their_uncertainty_says() -> None:
@@ -95,7 +103,7 @@ def test_asymmetry_is_found_and_named() -> None:
     assert all(check.passed for check in noisy(0).checks())
     skew = TRUE + np.array([[0, 4e-6, 0], [0, 0, 0], [0, 0, 0]])
     found = noisy(0, skew)
-    assert found.symmetry().probability < 1e-6
+    assert found.symmetry().probability < 1e-3
     assert found.symmetry().differences[0] == pytest.approx(4e-6, rel=0.2)
     checks = {check.name: check for check in found.checks()}
     assert not checks["reciprocity"].passed
@@ -177,12 +185,39 @@ def test_runs_that_differ_count_as_runs() -> None:
     force = 400 * random.standard_normal((600, 3))
     scale = 1 + 0.05 * random.standard_normal(10)
     displacement = scale[run, np.newaxis] * force @ TRUE.T + 1e-5 * random.standard_normal((600, 3))
-    by_run, by_reading = cartesian_from_vectors(force, displacement, run), cartesian_from_vectors(force, displacement)
-    assert by_run.by_run
-    assert not by_reading.by_run
-    assert_allclose(by_run.compliance, by_reading.compliance)
+    by_run, as_one = cartesian_from_vectors(force, displacement, run), cartesian_from_vectors(force, displacement)
+    assert by_run.counted == Counted(10, True, None)
+    assert_allclose(by_run.compliance, as_one.compliance)
     assert by_run.standard_uncertainty[0, 0] == pytest.approx(0.05 * TRUE[0, 0] / np.sqrt(10), rel=0.5)
-    assert by_reading.standard_uncertainty[0, 0] < 0.5 * by_run.standard_uncertainty[0, 0]
+
+
+def test_one_run_gives_values_and_no_interval() -> None:
+    """Readings of one run are not independent, however many they are."""
+    found = cartesian_from_vectors(FORCES, FORCES @ TRUE.T + NOISE * np.random.default_rng(5).standard_normal((30, 3)))
+    assert found.counted == Counted(1, False, 3)
+    assert_allclose(found.compliance, TRUE, atol=2e-6)
+    assert np.isinf(found.standard_uncertainty).all()
+    assert not found.along((1.0, 0.0, 0.0)).known
+    assert all(not one.compliance.known and np.isinf(one.direction_uncertainty) for one in found.principal())
+    K, covariance = found.stiffness()
+    assert_allclose(K, np.linalg.inv(TRUE), rtol=0.1, atol=2e3)
+    assert np.isinf(covariance).all()
+    with pytest.raises(UnsupportedError, match="the runs are too few to tell how symmetric the compliance is"):
+        found.symmetry()
+    checks = {check.name: check.passed for check in found.checks()}
+    assert checks == {"compliance determined": True, "reciprocity": None, "no energy gained": None}
+
+
+def test_what_an_influence_moves_the_elements_by_is_in_their_uncertainty() -> None:
+    """A force that is off by 1 % moves every element by 1 % of itself, and all of them together."""
+    found = noisy(1, noise=1e-6)
+    moved = replace(found, compliance=found.compliance / 1.01)
+    wider = with_influences(found, [moved], [np.inf])
+    assert_allclose(wider.standard_uncertainty, np.abs(found.compliance) * 0.01 / 1.01, rtol=0.05)
+    softest = wider.principal()[0]
+    assert softest.compliance.standard_uncertainty == pytest.approx(0.01 / 1.01 * softest.compliance.value, rel=0.01)
+    assert softest.compliance.degrees_of_freedom > 1e3
+    assert softest.direction_uncertainty == pytest.approx(found.principal()[0].direction_uncertainty, rel=1e-3)
 
 
 def test_units_and_order_do_not_matter() -> None:
@@ -190,7 +225,7 @@ def test_units_and_order_do_not_matter() -> None:
     random = np.random.default_rng(3)
     displacement = FORCES @ TRUE.T + NOISE * random.standard_normal(FORCES.shape)
     order = random.permutation(len(FORCES))
-    other = cartesian_from_vectors(FORCES[order] / 1000, 1000 * displacement[order])
+    other = cartesian_from_vectors(FORCES[order] / 1000, 1000 * displacement[order], order)
     assert_allclose(other.compliance / 1e6, found.compliance, rtol=1e-10)
     assert_allclose(other.standard_uncertainty / 1e6, found.standard_uncertainty, rtol=1e-10)
     assert other.symmetry().chi_squared == pytest.approx(found.symmetry().chi_squared, rel=1e-8)

@@ -63,7 +63,7 @@ def test_the_ramps_have_no_hysteresis_but_a_compliance() -> None:
 def test_the_rig_is_a_straight_line_through_all_weights() -> None:
     runs = read_test(EXAMPLES / "static-rig").runs
     columns = [np.concatenate([run.columns[name] for run in runs]) for name in ("force", "displacement")]
-    found = static_line(*columns)
+    found = static_line(*columns, [run.name for run in runs for _ in run.columns["force"]])
     low, high = found.stiffness().interval()
     assert low < 2650 < high
     assert high - low < 150
@@ -74,8 +74,8 @@ def test_the_probes_give_the_cartesian_compliance() -> None:
     found = cartesian_of(test.machine, test.observations(), sensors=3)
     expected = np.array([[6.8e-5, 0, 0.5e-5], [0, 5e-5, 0], [0.5e-5, 0, 3e-5]])
     assert not found.undetermined
-    assert (np.abs(found.compliance - expected) < 5 * found.standard_uncertainty).all()
-    assert all(check.passed for check in found.checks())
+    assert_allclose(found.compliance, expected, atol=1e-7)
+    assert found.counted.needed is not None
 
 
 def test_the_frame_gives_the_twist() -> None:

@@ -20,6 +20,9 @@ from elastogeo.estimate.solution import Solution, solve
 _SINGULAR = 1e-10
 """Eigenvalues of `I - H` below this belong to combinations that one run alone determines."""
 
+FEWEST_RUNS = 3
+"""Runs without which there is hardly more than one degree of freedom, however they are made."""
+
 _MOST_TIMES = 4
 """How often a test is repeated, at most, to see whether its runs would be enough."""
 
@@ -97,8 +100,10 @@ class _Split:
     def degrees_of_freedom(self) -> Array:
         """Satterthwaite's of the variance of each parameter, shape (p,), for independent readings of equal variance.
 
-        0 where it rests on one run alone.
+        0 where it rests on one run alone, or the runs are two.
         """
+        if len(self.roots) < FEWEST_RUNS:
+            return np.zeros(len(self.norms))
         across = (self.shares @ self.roots).swapaxes(0, 1)
         own = np.sum(self.shares**2, axis=2).T
         gram = own[:, :, np.newaxis] * np.eye(len(self.roots)) - across @ across.swapaxes(1, 2)

@@ -20,14 +20,14 @@ class Estimate:
     value : float
         In the unit that the place it stands at names.
     standard_uncertainty : float
-        In the same unit; zero if the value is exact.
+        In the same unit; zero if the value is exact, infinite if nothing shows it: then there is no interval.
     degrees_of_freedom : float
         Of the standard uncertainty; infinite if it is known.
 
     Raises
     ------
     InputError
-        If value or uncertainty are not finite, the uncertainty is negative, or there are no degrees of freedom.
+        If the value is not finite, the uncertainty is negative or no number, or there are no degrees of freedom.
     """
 
     value: float
@@ -37,10 +37,18 @@ class Estimate:
     def __post_init__(self) -> None:
         """Refuse what is no estimate."""
         size = self.standard_uncertainty
-        if not (isfinite(self.value) and isfinite(size) and size >= 0):
-            raise InputError(f"{self.value:g} with the standard uncertainty {size:g} is no estimate; both must be finite")
+        if not (isfinite(self.value) and size >= 0):
+            raise InputError(
+                f"{self.value:g} with the standard uncertainty {size:g} is no estimate; the value must be finite, the "
+                f"uncertainty a number of zero or more"
+            )
         if not self.degrees_of_freedom > 0:
             raise InputError(f"an estimate has {self.degrees_of_freedom:g} degrees of freedom; it needs more than 0")
+
+    @property
+    def known(self) -> bool:
+        """Whether anything shows its uncertainty."""
+        return isfinite(self.standard_uncertainty)
 
     def expanded(self, coverage: float = 0.95) -> float:
         """Expanded uncertainty U: half the width of the coverage interval, by Student's t (JCGM 100, G.3)."""
@@ -61,8 +69,10 @@ class Estimate:
         Raises
         ------
         UnsupportedError
-            If its 95 % interval holds zero: the inverse is then unbounded.
+            If its 95 % interval holds zero, or the value is zero: the inverse is then unbounded.
         """
+        if not self.known and self.value:
+            return Estimate(1 / self.value, inf)
         low, high = self.interval()
         if low <= 0 <= high:
             raise UnsupportedError(

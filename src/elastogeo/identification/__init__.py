@@ -77,7 +77,15 @@ from elastogeo.identification.static_tests.drive_train import (
 )
 from elastogeo.identification.static_tests.hysteresis import StaticHysteresis, hysteresis
 from elastogeo.identification.static_tests.loading_branches import Branch, branches_of, turning_points
-from elastogeo.identification.static_tests.result import Cartesian, LoadedPlace, LoadedRun, LoadStep, StaticResults, TwistRun
+from elastogeo.identification.static_tests.result import (
+    Cartesian,
+    LoadedPlace,
+    LoadedRun,
+    LoadStep,
+    StaticResults,
+    TwistPlace,
+    TwistRun,
+)
 from elastogeo.identification.static_tests.straight_line import StaticLine, static_line
 from elastogeo.identification.systems import RunSystem, Systems, merged, noise_of, run_systems
 from elastogeo.identification.verdict import CONDITION_LIMIT
@@ -156,6 +164,7 @@ __all__ = [
     "TestPart",
     "TorqueParts",
     "Trace",
+    "TwistPlace",
     "TwistRun",
     "VariableCompliance",
     "WhatIf",

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal, TypedDict, TypeVar
 
+import numpy as np
+
 from elastogeo.errors import InputError
 from elastogeo.estimate import Confounding, confounding
 from elastogeo.identification.campaigns.precision import weighted
@@ -16,7 +18,7 @@ from elastogeo.identification.preference import retaining_order
 from elastogeo.identification.reciprocity import Reciprocity, reciprocity
 from elastogeo.identification.rounding import rounding_effects
 from elastogeo.identification.systems import Systems, joined, merged, run_systems
-from elastogeo.observe import Askable, Campaign, MachineTest, Observations, campaign_of
+from elastogeo.observe import Askable, Campaign, MachineTest, Observations, ObservedInfluence, campaign_of
 from elastogeo.sources import Source, select_sources
 
 One = TypeVar("One", MachineTest, Campaign)
@@ -194,3 +196,33 @@ def effects_of(one: Askable, systems: Systems) -> tuple[Effect, ...]:
         for effect in rounding_effects(systems.of(name), test.resolution)
     )
     return (*effects(campaign, systems), *rounded)
+
+
+def with_stated(test: MachineTest, observations: Sequence[Observations]) -> Sequence[Observations]:
+    """The observations with all that is known of systematic influences, beside what they came with.
+
+    What an instrument shows by itself takes it from there.
+    """
+    own = len(observations[0].influences)
+    question = replace(test.question, reference_force=None, levels=(), without_levels=())
+    systems = systems_of(replace(test, question=question), observations)
+    known = effects_of(test, systems)[own:]
+    return [
+        replace(
+            run,
+            influences=(
+                *run.influences,
+                *(
+                    ObservedInfluence(
+                        effect.influence.label,
+                        effect.influence.standard_uncertainty,
+                        effect.influence.degrees_of_freedom,
+                        effect.stretch[k] * run.wrench,
+                        np.zeros(len(run)) if effect.shift is None else -effect.shift[k],
+                    )
+                    for effect in known
+                ),
+            ),
+        )
+        for k, run in enumerate(observations)
+    ]

@@ -45,7 +45,7 @@ def fitted(curves: Curves) -> Fitted:
     at = mean[-1:] if law.name == "constant" else mean
     runs = np.bincount(curves.level)[:, np.newaxis]
     variance, freedom = within_levels(curves, law.compliance(curves.force))
-    if freedom < 1:
+    if freedom <= 1:
         variance, freedom = law.variance, law.degrees_of_freedom
     step = np.diff(mean, axis=0)
 
@@ -94,7 +94,7 @@ def _kinds(
     values = compliance(None)
     moved = np.array([compliance(n) - values for n in range(len(curves.changes))]).reshape(-1, *values.shape)
     size, freedom = scatter
-    known = size if freedom > 0 else np.full(values.shape, np.inf)
+    known = size if freedom > 1 else np.full(values.shape, np.inf)
     return tuple(
         Stiffness(
             kind=kind,

@@ -15,7 +15,7 @@ import numpy as np
 from elastogeo.drive import motor_parameters
 from elastogeo.errors import InputError
 from elastogeo.identification.identification import identify_observed
-from elastogeo.identification.question import effects_of, systems_of
+from elastogeo.identification.question import with_stated
 from elastogeo.identification.rollers.curves import Curves, curves_of
 from elastogeo.identification.rollers.dynamometer import against_dynamometer
 from elastogeo.identification.rollers.kinds import Fitted, fitted
@@ -23,7 +23,7 @@ from elastogeo.identification.rollers.result import StiffnessMap
 from elastogeo.identification.rollers.rig_test import RigTest, compare_with_rig
 from elastogeo.identification.rollers.torque_parts import torque_parts
 from elastogeo.identification.rollers.verdict import map_verdict
-from elastogeo.observe import BallRoller, MachineTest, Observations, ObservedInfluence
+from elastogeo.observe import BallRoller, MachineTest, Observations
 
 
 def map_stiffness(test: MachineTest, rig_test: MachineTest | None = None) -> StiffnessMap:
@@ -48,7 +48,7 @@ def map_stiffness(test: MachineTest, rig_test: MachineTest | None = None) -> Sti
         raise InputError("the check with a rig needs a test without one, and one whose set-up names it: [[setup.rig]]")
     pressed = setup.pressed(test.machine, test.runs)
     observations = setup.observed(test.machine, test.runs, pressed)
-    curves = curves_of(_with_stated(test, observations))
+    curves = curves_of(with_stated(test, observations))
     stiffness = fitted(curves)
     measured, untested = against_dynamometer(test.runs, pressed)
     drives = {drive.axis: drive for drive in setup.drives}
@@ -70,33 +70,6 @@ def map_stiffness(test: MachineTest, rig_test: MachineTest | None = None) -> Sti
     return replace(found, verdict=map_verdict(found, setup.drives, untested))
 
 
-def _with_stated(test: MachineTest, observations: Sequence[Observations]) -> Sequence[Observations]:
-    """The observations with the systematic influences that the test states beside those of drives and set-up."""
-    if not test.influences:
-        return observations
-    own = len(observations[0].influences)
-    known = effects_of(test, systems_of(test, observations))[own:]
-    return [
-        replace(
-            run,
-            influences=(
-                *run.influences,
-                *(
-                    ObservedInfluence(
-                        effect.influence.label,
-                        effect.influence.standard_uncertainty,
-                        effect.influence.degrees_of_freedom,
-                        effect.stretch[k] * run.wrench,
-                        np.zeros(len(run)) if effect.shift is None else -effect.shift[k],
-                    )
-                    for effect in known
-                ),
-            ),
-        )
-        for k, run in enumerate(observations)
-    ]
-
-
 def _roller_of(test: MachineTest) -> BallRoller:
     if test.setup.extra != "stiffness-map":
         raise InputError(f"test {test.name!r} has no ball-roller set-up; identify it with: elastogeo identify")
@@ -112,7 +85,7 @@ def _engagements(test: MachineTest, curves: Curves, observations: Sequence[Obser
 
 def _with_rig(without: Fitted, test: MachineTest) -> RigTest:
     observations = test.observations()
-    curves = curves_of(_with_stated(test, observations))
+    curves = curves_of(with_stated(test, observations))
     found = fitted(curves)
     return compare_with_rig(
         without.modelled[-1],

@@ -13,6 +13,7 @@ from elastogeo.identification.static_tests.result import (
     LoadedRun,
     LoadStep,
     StaticResults,
+    TwistPlace,
     TwistRun,
 )
 from elastogeo.identification.static_tests.straight_line import StaticLine, static_line
@@ -31,6 +32,7 @@ __all__ = [
     "StaticLine",
     "StaticResults",
     "Symmetry",
+    "TwistPlace",
     "TwistRun",
     "evaluate_static",
     "hysteresis",

@@ -18,14 +18,24 @@ from typing import cast
 import numpy as np
 
 from elastogeo.errors import InputError, UnsupportedError
-from elastogeo.identification.identification import identify
+from elastogeo.identification.identification import identify_observed
+from elastogeo.identification.question import with_stated
 from elastogeo.identification.result import Identification
-from elastogeo.identification.static_tests.cartesian import Principal, cartesian_of
+from elastogeo.identification.static_tests.by_run import Moved, moved_observations, widened
+from elastogeo.identification.static_tests.cartesian import CartesianCompliance, Principal, cartesian_of, with_influences
 from elastogeo.identification.static_tests.drive_train import FEEDBACKS, OnAxis, OnAxisRecord, where_in_the_drive
 from elastogeo.identification.static_tests.hysteresis import hysteresis
-from elastogeo.identification.static_tests.result import Cartesian, LoadedPlace, LoadedRun, LoadStep, StaticResults, TwistRun
+from elastogeo.identification.static_tests.result import (
+    Cartesian,
+    LoadedPlace,
+    LoadedRun,
+    LoadStep,
+    StaticResults,
+    TwistPlace,
+    TwistRun,
+)
 from elastogeo.identification.static_tests.straight_line import static_line
-from elastogeo.identification.static_tests.verdict import influence_checks, loading_checks, probe_checks, twist_checks
+from elastogeo.identification.static_tests.verdict import loading_checks, probe_checks, twist_checks
 from elastogeo.machine import Array, Machine, loop_frames
 from elastogeo.observe import (
     DisplacementProbes,
@@ -76,26 +86,56 @@ def evaluate_static(test: MachineTest, feedback: str = "motor") -> StaticResults
         raise InputError(_of_another_instrument(test))
     if feedback not in FEEDBACKS:
         raise InputError(f"a position loop is closed on {feedback!r}; say {' or '.join(FEEDBACKS)}")
-    found = _EVALUATED[test.setup.extra](test, identify(test), test.observations(), feedback)
-    others = (*influence_checks(test.influences), *found.joints.verdict)
-    return replace(found, verdict=(*found.verdict, *others))
+    observed = test.observations()
+    joints = identify_observed(test, observed)
+    moved = tuple(moved_observations(with_stated(test, observed)))
+    found = _EVALUATED[test.setup.extra](test, joints, observed, moved, feedback)
+    return replace(found, verdict=(*found.verdict, *found.joints.verdict))
 
 
-def _of_cycles(test: MachineTest, joints: Identification, observed: Sequence[Observations], feedback: str) -> StaticResults:
+def _of_cycles(
+    test: MachineTest, joints: Identification, observed: Sequence[Observations], moved: Sequence[Moved], feedback: str
+) -> StaticResults:
     known = cast("StaticForce", test.setup).direction is not None
-    places = _places(test.machine, test.runs, observed, known=known, feedback=feedback)
+
+    def places_of(seen: Sequence[Observations]) -> tuple[LoadedPlace, ...]:
+        return _places(test.machine, test.runs, seen, known=known, feedback=feedback)
+
+    places = widened(places_of(observed), [places_of(one.observed) for one in moved], _freedoms(moved))
     return StaticResults(joints, places=places, verdict=loading_checks(places))
 
 
-def _of_probes(test: MachineTest, joints: Identification, observed: Sequence[Observations], _: str) -> StaticResults:
+def _of_probes(
+    test: MachineTest, joints: Identification, observed: Sequence[Observations], moved: Sequence[Moved], _: str
+) -> StaticResults:
     probes = len(cast("DisplacementProbes", test.setup).probes)
-    found = _cartesian(test.machine, observed, probes, SETUP.isdisjoint(joints.confounding.labels))
+    zeroed = SETUP.isdisjoint(joints.confounding.labels)
+
+    def compliance_of(seen: Sequence[Observations]) -> CartesianCompliance:
+        return cartesian_of(test.machine, seen, sensors=0 if zeroed else probes)
+
+    compliance = with_influences(compliance_of(observed), [compliance_of(one.observed) for one in moved], _freedoms(moved))
+    found = _cartesian(compliance, zeroed)
     return StaticResults(joints, cartesian=found, verdict=probe_checks(found))
 
 
-def _of_frame(test: MachineTest, joints: Identification, observed: Sequence[Observations], _: str) -> StaticResults:
-    twists, refusal = _twists(cast("SensorFrame", test.setup), test.runs, observed, test.resolution)
-    return StaticResults(joints, twists=twists, refusal=refusal, verdict=twist_checks(twists, refusal))
+def _of_frame(
+    test: MachineTest, joints: Identification, observed: Sequence[Observations], moved: Sequence[Moved], _: str
+) -> StaticResults:
+    setup = cast("SensorFrame", test.setup)
+    twists, refusal = _twists(setup, observed, test.resolution)
+
+    def places_of(seen: Sequence[Observations]) -> tuple[TwistPlace, ...]:
+        return _twist_places(test.machine, _twists(setup, seen, test.resolution)[0], seen, known=setup.direction is not None)
+
+    places = widened(places_of(observed), [places_of(one.observed) for one in moved], _freedoms(moved))
+    return StaticResults(
+        joints, twists=twists, twist_places=places, refusal=refusal, verdict=twist_checks(twists, places, refusal)
+    )
+
+
+def _freedoms(moved: Sequence[Moved]) -> tuple[float, ...]:
+    return tuple(one.degrees_of_freedom for one in moved)
 
 
 _EVALUATED = {"loading-cycles": _of_cycles, "cartesian-stiffness": _of_probes, "twist": _of_frame}
@@ -115,17 +155,25 @@ def _places(
     machine: Machine, runs: Sequence[Run], observed: Sequence[Observations], *, known: bool, feedback: str
 ) -> tuple[LoadedPlace, ...]:
     """Runs by the place where the machine stands and the line of the force."""
-    groups: list[tuple[Array, list[tuple[Run, Observations]]]] = []
-    for run, seen in zip(runs, observed, strict=True):
+    groups = _grouped(observed, known=known)
+    return tuple(
+        _place(machine, direction, [(runs[k], observed[k]) for k in members], feedback) for direction, members in groups
+    )
+
+
+def _grouped(observed: Sequence[Observations], *, known: bool) -> list[tuple[Array, list[int]]]:
+    """Which runs load the machine at one place along one line, and the direction of that line."""
+    groups: list[tuple[Array, list[int]]] = []
+    for k, seen in enumerate(observed):
         line = _line_of(seen, known=known)
         for direction, members in groups:
-            same = np.allclose(members[0][1].commands[0], seen.commands[0], rtol=0, atol=1e-6)
+            same = np.allclose(observed[members[0]].commands[0], seen.commands[0], rtol=0, atol=1e-6)
             if same and abs(direction @ line) > ALONG:
-                members.append((run, seen))
+                members.append(k)
                 break
         else:
-            groups.append((line, [(run, seen)]))
-    return tuple(_place(machine, direction, members, feedback) for direction, members in groups)
+            groups.append((line, [k]))
+    return groups
 
 
 def _line_of(seen: Observations, *, known: bool) -> Array:
@@ -159,7 +207,9 @@ def _place(machine: Machine, direction: Array, members: Sequence[tuple[Run, Obse
     line, refusal = None, ""
     try:
         line = static_line(
-            np.concatenate([run.force for run in loaded]), np.concatenate([run.displacement for run in loaded])
+            np.concatenate([run.force for run in loaded]),
+            np.concatenate([run.displacement for run in loaded]),
+            [run.run for run in loaded for _ in run.force],
         )
     except UnsupportedError as error:
         refusal = str(error)
@@ -169,7 +219,7 @@ def _place(machine: Machine, direction: Array, members: Sequence[tuple[Run, Obse
     except UnsupportedError as error:
         drive_refusal = str(error)
     return LoadedPlace(
-        commands={axis: float(value) for axis, value in zip(machine.axes, first.commands[0], strict=True)},
+        commands=_standing(machine, first),
         direction=direction,
         along=abs(cosine) > ALONG,
         runs=loaded,
@@ -235,9 +285,8 @@ def _positions(runs: Sequence[Run], column: str) -> Array | None:
     return np.concatenate([np.asarray(run.columns[column], dtype=float) for run in runs])
 
 
-def _cartesian(machine: Machine, observed: Sequence[Observations], probes: int, zeroed: bool) -> Cartesian:
+def _cartesian(compliance: CartesianCompliance, zeroed: bool) -> Cartesian:
     """The Cartesian compliance and all that can be had of it."""
-    compliance = cartesian_of(machine, observed, sensors=0 if zeroed else probes)
     stiffness = uncertainty = symmetry = None
     principal: tuple[Principal, ...] = ()
     refusals = []
@@ -255,7 +304,7 @@ def _cartesian(machine: Machine, observed: Sequence[Observations], probes: int, 
 
 
 def _twists(
-    setup: SensorFrame, runs: Sequence[Run], observed: Sequence[Observations], resolution: float | None
+    setup: SensorFrame, observed: Sequence[Observations], resolution: float | None
 ) -> tuple[tuple[TwistRun, ...], str]:
     """The twist of every run, or why there is none."""
     deviation = None
@@ -264,20 +313,39 @@ def _twists(
             return (), "six sensors leave no residual: give the resolution of the readings, or add a sensor"
         deviation = resolution / np.sqrt(12)
     try:
-        return tuple(_twist(setup, run, seen, deviation) for run, seen in zip(runs, observed, strict=True)), ""
+        return tuple(_twist(setup, seen, deviation) for seen in observed), ""
     except UnsupportedError as error:
         return (), str(error)
 
 
-def _twist(setup: SensorFrame, run: Run, seen: Observations, deviation: float | None) -> TwistRun:
-    readings = np.column_stack([run.columns[name] for name in setup.readings])
-    force = seen.pose[: len(readings)]
+def _twist(setup: SensorFrame, seen: Observations, deviation: float | None) -> TwistRun:
+    readings = np.array(np.split(seen.reading, len(setup.sensors))).T
+    force = np.sign(seen.pose[: len(readings)]) * np.linalg.norm(seen.wrench[: len(readings), :3], axis=1)
     found = sensor_twist(setup.sensors, readings, deviation)
-    try:
-        compliance = tuple(static_line(force, component).compliance for component in found.twist.T)
-    except UnsupportedError:
-        compliance = ()
-    return TwistRun(run.name, force, found, tuple(_steps(force, found)), compliance)
+    return TwistRun(seen.run, force, found, tuple(_steps(force, found)))
+
+
+def _twist_places(
+    machine: Machine, twists: Sequence[TwistRun], observed: Sequence[Observations], *, known: bool
+) -> tuple[TwistPlace, ...]:
+    """Twist per force by place and line of the force; of those with one force only, none."""
+    places = []
+    for direction, members in _grouped(observed, known=known) if twists else ():
+        runs = [twists[k] for k in members]
+        force = np.concatenate([run.force for run in runs])
+        twist, names = np.concatenate([run.twist.twist for run in runs]), [run.run for run in runs for _ in run.force]
+        try:
+            lines = [static_line(force, component, names) for component in twist.T]
+        except UnsupportedError:
+            continue
+        compliance = tuple(line.compliance for line in lines)
+        at = _standing(machine, observed[members[0]])
+        places.append(TwistPlace(at, direction, tuple(run.run for run in runs), compliance, lines[0].counted))
+    return tuple(places)
+
+
+def _standing(machine: Machine, seen: Observations) -> dict[str, float]:
+    return {axis: float(value) for axis, value in zip(machine.axes, seen.commands[0], strict=True)}
 
 
 def _steps(force: Array, found: SensorTwist) -> Iterator[LoadStep]:
@@ -292,6 +360,5 @@ def _steps(force: Array, found: SensorTwist) -> Iterator[LoadStep]:
             force=float(force[first:last].mean()),
             readings=count,
             twist=found.twist[first:last].mean(axis=0),
-            standard_uncertainty=found.standard_uncertainty / np.sqrt(count),
         )
         first = last

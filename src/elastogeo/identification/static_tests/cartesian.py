@@ -9,26 +9,26 @@ the same observations.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc, stdtrit
 
-from elastogeo.errors import DegreesOfFreedomError, InputError, RankError, UnsupportedError
+from elastogeo.errors import InputError, RankError, UnsupportedError
 from elastogeo.estimate import (
     Confounding,
     Estimate,
     Factor,
     Solution,
     confounding,
+    effective_degrees_of_freedom,
     factor_blocks,
     merge,
-    solve,
-    solve_by_run,
 )
 from elastogeo.identification.check import Check
+from elastogeo.identification.static_tests.by_run import Counted, solved_by_run
 from elastogeo.machine import Array, Machine, loop_frames
 from elastogeo.observe import Observations
 
@@ -38,7 +38,7 @@ ELEMENTS = tuple(f"C_{i}{j}" for i in AXES for j in AXES)
 """Displacement, then force component; row by row."""
 
 FEWEST = 3.0
-"""Degrees of freedom below which the scatter of runs says too little: readings are counted then."""
+"""Degrees of freedom below which the scatter of runs does not tell three differences from nothing."""
 
 SIGNIFICANT = 0.01
 """Probability below which a departure from the physics is more than scatter."""
@@ -106,27 +106,48 @@ class CartesianCompliance:
     compliance : array, shape (3, 3) [mm/N]
         Row: component of the displacement, column: component of the force. What is not
         determined is NaN.
-    covariance : array, shape (9, 9)
-        Of the compliance, row by row; NaN where it is not determined.
-    degrees_of_freedom : array, shape (9,)
-        Of each standard uncertainty.
+    scatter : array, shape (9, 9)
+        Covariance of the compliance, row by row, by the scatter of the runs; NaN where it is not determined, infinite where
+        the runs are too few to show it.
+    scatter_freedom : array, shape (9,)
+        Degrees of freedom of each element's scatter.
     undetermined : tuple of str
         Elements that the readings do not determine by themselves (`C_XZ`).
     zeros : tuple of Estimate [mm]
         Readings without force of the sensors, where they were asked for and are determined.
-    by_run : bool
-        Whether the uncertainty counts on independent runs rather than on independent readings.
+    counted : Counted
+        What the uncertainty counts on.
     residual_std : float [mm]
         Estimated standard deviation of one reading.
+    systematic : array, shape (k, 9)
+        By how much one standard uncertainty of each influence moves the elements [mm/N].
+    freedoms : tuple of k float
+        Degrees of freedom of each influence.
     """
 
     compliance: Array
-    covariance: Array
-    degrees_of_freedom: Array
+    scatter: Array
+    scatter_freedom: Array
     undetermined: tuple[str, ...]
     zeros: tuple[Estimate, ...]
-    by_run: bool
+    counted: Counted
     residual_std: float
+    systematic: Array = field(default_factory=lambda: np.zeros((0, 9)))
+    freedoms: tuple[float, ...] = ()
+
+    @property
+    def covariance(self) -> Array:
+        """Of scatter and influences together, row by row, shape (9, 9)."""
+        return np.asarray(self.scatter + self.systematic.T @ self.systematic)
+
+    @property
+    def degrees_of_freedom(self) -> Array:
+        """Effective ones of each element, shape (9,) (JCGM 100, G.4)."""
+        if not self.freedoms:
+            return self.scatter_freedom
+        parts = np.vstack([np.sqrt(np.diag(self.scatter)), np.abs(self.systematic)]).T
+        each = np.tile(np.asarray(self.freedoms, dtype=float), (9, 1))
+        return effective_degrees_of_freedom(parts, np.column_stack([self.scatter_freedom, each]))
 
     @property
     def standard_uncertainty(self) -> Array:
@@ -166,6 +187,8 @@ class CartesianCompliance:
         for principal in self.principal():
             principal.stiffness()
         K = np.asarray(np.linalg.inv(self.compliance), dtype=float)
+        if not self.counted.by_run:
+            return K, np.full((9, 9), inf)
         change = -np.kron(K, K.T)
         return K, np.asarray(change @ self.covariance @ change.T)
 
@@ -176,8 +199,13 @@ class CartesianCompliance:
         ------
         RankError
             If the compliance is not determined.
+        UnsupportedError
+            If the runs are too few to tell.
         """
         self._check_determined("the symmetry")
+        freedom = float(self.scatter_freedom.min())
+        if not self.counted.by_run or freedom < FEWEST:
+            raise UnsupportedError("the runs are too few to tell how symmetric the compliance is; repeat them")
         differences = _ANTISYMMETRIC @ self.compliance.ravel()
         covariance = _ANTISYMMETRIC @ self.covariance @ _ANTISYMMETRIC.T
         scale = np.sqrt(np.diag(covariance))
@@ -187,11 +215,9 @@ class CartesianCompliance:
             )
         weighted = np.linalg.solve(covariance / np.outer(scale, scale), differences / scale)
         chi_squared = float(differences / scale @ weighted)
-        freedom = float(self.degrees_of_freedom.min())
-        ratio = chi_squared / 3
-        if self.by_run:  # the whole covariance is estimated then, not one variance only (Hotelling)
-            ratio, freedom = ratio * (freedom - 2) / freedom, freedom - 2
-        return Symmetry(differences, chi_squared, float(fdtrc(3, freedom, ratio)))
+        # The whole covariance is estimated, not one variance only (Hotelling).
+        ratio = chi_squared / 3 * (freedom - 2) / freedom
+        return Symmetry(differences, chi_squared, float(fdtrc(3, freedom - 2, ratio)))
 
     def principal(self) -> tuple[Principal, ...]:
         """Principal directions of the symmetric part, the softest first.
@@ -218,24 +244,34 @@ class CartesianCompliance:
         """What is to be believed: all determined, symmetric within the uncertainty, and no force gaining energy."""
         if self.undetermined:
             return (Check("compliance determined", False, {"why": self._undetermined()}),)
-        found = self.symmetry()
         stiffest = self.principal()[-1].compliance
+        gained = stiffest.interval()[1] < 0 if stiffest.known else None
+        return (
+            Check("compliance determined", True, {"why": ""}),
+            self._reciprocal(),
+            Check("no energy gained", None if gained is None else not gained, {"least": stiffest.value}),
+        )
+
+    def _reciprocal(self) -> Check:
+        try:
+            found = self.symmetry()
+        except UnsupportedError as error:
+            return Check("reciprocity", None, {"why": str(error)})
         differences = {
             "greatest": float(np.abs(found.differences).max()),
             "chi_squared": found.chi_squared,
             "p_value": found.probability,
         }
-        return (
-            Check("compliance determined", True, {"why": ""}),
-            Check("reciprocity", found.probability >= SIGNIFICANT, differences),
-            Check("no energy gained", stiffest.interval()[1] >= 0, {"least": stiffest.value}),
-        )
+        return Check("reciprocity", found.probability >= SIGNIFICANT, differences)
 
     def _linear(self, weights: Array) -> Estimate:
         """A linear function of the elements; weights of shape (3, 3)."""
         w = weights.ravel()
-        freedom = float(self.degrees_of_freedom.min())
-        return Estimate(float(w @ self.compliance.ravel()), float(np.sqrt(w @ self.covariance @ w)), freedom)
+        if not self.counted.by_run:
+            return Estimate(float(w @ self.compliance.ravel()), inf)
+        parts = np.array([[np.sqrt(w @ self.scatter @ w), *np.abs(self.systematic @ w)]])
+        freedom = effective_degrees_of_freedom(parts, np.array([[self.scatter_freedom.min(), *self.freedoms]]))
+        return Estimate(float(w @ self.compliance.ravel()), float(np.linalg.norm(parts)), float(freedom[0]))
 
     def _check_determined(self, what: str) -> None:
         if self.undetermined:
@@ -269,7 +305,8 @@ def cartesian_compliance(
     sensor : array of int, shape (m,), optional
         Which sensor read: each then has an unknown zero. Without it all readings count from zero force.
     run : array of int, shape (m,), optional
-        Which run it was: the uncertainty then counts on independent runs, if there are enough of them.
+        Which run it was; by default all are of one. The uncertainty counts on independent runs, and is infinite where they
+        are too few: readings along a turn are not independent.
 
     Notes
     -----
@@ -295,8 +332,7 @@ def cartesian_compliance(
     rows = np.hstack([elastic, zeros, reading[:, np.newaxis]])
     factors = [factor_blocks(labels, [np.asfortranarray(rows[runs == k])]) for k in range(int(runs.max()) + 1)]
     found = _determined(merge(*factors), force)
-    solution, by_run = _solved(factors, found.retained)
-    return _assembled(solution, found, by_run)
+    return _assembled(*solved_by_run(factors, found.retained), found)
 
 
 def cartesian_from_vectors(force: Array, displacement: Array, run: Array | None = None) -> CartesianCompliance:
@@ -401,17 +437,17 @@ def _determined(factor: Factor, force: Array) -> Confounding:
     return confounding(factor, ceilings=ceilings)
 
 
-def _solved(factors: Sequence[Factor], labels: Sequence[str]) -> tuple[Solution, bool]:
-    """By run where there are runs enough for it, else by reading."""
-    if len(factors) > 1:
-        with suppress(DegreesOfFreedomError):
-            solution = solve_by_run(factors, labels)
-            if solution.degrees_of_freedom.min() >= FEWEST:
-                return solution, True
-    return solve(merge(*factors), labels), False
+def with_influences(
+    found: CartesianCompliance, moved: Sequence[CartesianCompliance], freedoms: Sequence[float]
+) -> CartesianCompliance:
+    """The compliance with what each influence, by one standard uncertainty, moves it by, beside its scatter."""
+    if not (moved and found.counted.by_run):
+        return found
+    shifts = np.array([(one.compliance - found.compliance).ravel() for one in moved])
+    return replace(found, systematic=shifts, freedoms=tuple(freedoms))
 
 
-def _assembled(solution: Solution, found: Confounding, by_run: bool) -> CartesianCompliance:
+def _assembled(solution: Solution, counted: Counted, found: Confounding) -> CartesianCompliance:
     """Elements in their places, NaN where the readings give sums only."""
     alone = [label for label in found.retained if len(found.stands_for(label)) == 1]
     values, covariance = np.full(9, np.nan), np.full((9, 9), np.nan)
@@ -424,10 +460,10 @@ def _assembled(solution: Solution, found: Confounding, by_run: bool) -> Cartesia
     zeros = tuple(solution.estimate(label) for label in solution.labels if label in alone and label not in ELEMENTS)
     return CartesianCompliance(
         compliance=values.reshape(3, 3),
-        covariance=covariance,
-        degrees_of_freedom=freedom,
+        scatter=covariance,
+        scatter_freedom=freedom,
         undetermined=tuple(label for label in ELEMENTS if label not in alone),
         zeros=zeros,
-        by_run=by_run,
+        counted=counted,
         residual_std=solution.residual_std,
     )

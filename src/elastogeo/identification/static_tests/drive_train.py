@@ -21,11 +21,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 
-from elastogeo.errors import DegreesOfFreedomError, InputError, RankError
+from elastogeo.errors import InputError, RankError
 from elastogeo.estimate import (
     Estimate,
     Factor,
@@ -34,10 +35,9 @@ from elastogeo.estimate import (
     effective_degrees_of_freedom,
     factor_blocks,
     merge,
-    solve,
-    solve_by_run,
 )
 from elastogeo.identification.check import Check
+from elastogeo.identification.static_tests.by_run import Counted, solved_by_run
 from elastogeo.machine import Array
 
 FEEDBACKS = ("motor", "scale")
@@ -201,10 +201,9 @@ def where_in_the_drive(record: OnAxisRecord, feedback: str = "motor", whole: Est
             f"{' and '.join(chain) or 'none'}; it takes two of {', '.join(_IN_SERIES[feedback])} to split anything"
         )
     lines, limits = _lines(record)
-    parts, by_run, total = _split(record, feedback, chain, lines, whole)
+    parts, counted, total = _split(record, feedback, chain, lines, whole)
     if inside:
         fit, counted = _fitted(lines, _channel(record, "scale") - _channel(record, "motor"))
-        by_run = by_run and counted
         parts.append(_part((TRANSMISSION,), fit, 0.0, acts=False))
     return OnAxis(
         axis=record.axis,
@@ -212,7 +211,7 @@ def where_in_the_drive(record: OnAxisRecord, feedback: str = "motor", whole: Est
         parts=tuple(parts),
         whole=total,
         limits=tuple(limits + _limits(record, feedback, parts, total)),
-        verdict=(_counted(by_run, len(lines.runs)), _springs(parts), _apart(parts)),
+        verdict=(_by_run(counted), _springs(parts), _apart(parts)),
     )
 
 
@@ -223,35 +222,38 @@ def _chain(record: OnAxisRecord, feedback: str) -> list[str]:
 
 def _split(
     record: OnAxisRecord, feedback: str, chain: Sequence[str], lines: _Lines, whole: Estimate | None
-) -> tuple[list[OnAxisPart], bool, Estimate | None]:
-    """Parts that act, whether their uncertainty counts runs, and the whole."""
+) -> tuple[list[OnAxisPart], Counted, Estimate | None]:
+    """Parts that act, what their uncertainty counts on, and the whole."""
     places, springs = _IN_SERIES[feedback], _SPRINGS[feedback]
     spans = {springs[places.index(a) : places.index(b)]: (a, b) for a, b in pairwise(chain)}
     unseen = tuple(name for name in springs if not any(name in names for names in spans))
-    by_run = True
+    # Every difference is on the same design: what one counts on, all do.
+    counted = _fitted(lines, np.zeros(len(record.force)))[1]
     if record.deflection is not None:
-        fit, by_run = _fitted(lines, _channel(record, "deflection"))
+        fit, _ = _fitted(lines, _channel(record, "deflection"))
         whole = fit.estimate("compliance")
     parts = []
     for names, (a, b) in spans.items():
-        fit, by_run = _fitted(lines, _channel(record, b) - _channel(record, a))
+        fit, _ = _fitted(lines, _channel(record, b) - _channel(record, a))
         parts.append(_part(names, fit, _share(fit.estimate("compliance"), whole)))
     if whole is None:
-        return parts, by_run, None
+        return parts, counted, None
     # All spans together, first to last position: what they share between them is then counted once.
     seen = _channel(record, chain[-1]) - _channel(record, chain[0]) if len(chain) > 1 else np.zeros(len(record.force))
     if record.deflection is not None:
-        fit, by_run = _fitted(lines, _channel(record, "deflection") - seen)
+        fit, _ = _fitted(lines, _channel(record, "deflection") - seen)
         parts.append(_part(unseen, fit, _share(fit.estimate("compliance"), whole)))
-        return parts, by_run, whole
-    fit, by_run = _fitted(lines, seen)
+        return parts, counted, whole
+    fit, _ = _fitted(lines, seen)
     left = _less(whole, fit.estimate("compliance"))
     parts.append(OnAxisPart(unseen, left, True, _share(left, whole), None))
-    return parts, by_run, whole
+    return parts, counted, whole
 
 
 def _less(one: Estimate, other: Estimate) -> Estimate:
     """Difference of two independent compliances (JCGM 100, G.2b)."""
+    if not (one.known and other.known):
+        return Estimate(one.value - other.value, inf)
     contributions = np.array([[one.standard_uncertainty, other.standard_uncertainty]])
     degrees = np.array([one.degrees_of_freedom, other.degrees_of_freedom])
     freedom = float(effective_degrees_of_freedom(contributions, degrees)[0])
@@ -312,13 +314,9 @@ def _factors(lines: _Lines, difference: Array) -> list[Factor]:
     return [factor_blocks(lines.labels, [np.asfortranarray(rows[run])]) for run in lines.runs.values()]
 
 
-def _fitted(lines: _Lines, difference: Array) -> tuple[Solution, bool]:
-    """Straight line over the force, and whether its uncertainty is by run: it is where there are runs enough."""
-    factors = _factors(lines, difference)
-    try:
-        return solve_by_run(factors, lines.labels), True
-    except DegreesOfFreedomError:
-        return solve(merge(*factors)), False
+def _fitted(lines: _Lines, difference: Array) -> tuple[Solution, Counted]:
+    """Straight line over the force, with the uncertainty of its runs if there are enough."""
+    return solved_by_run(_factors(lines, difference), lines.labels)
 
 
 def _part(names: tuple[str, ...], fit: Solution, share: float | None, acts: bool = True) -> OnAxisPart:
@@ -357,14 +355,15 @@ def _limits(record: OnAxisRecord, feedback: str, parts: Sequence[OnAxisPart], wh
     return said
 
 
-def _counted(by_run: bool, runs: int) -> Check:
-    return Check("uncertainty of the parts by run", by_run, {"runs": runs})
+def _by_run(counted: Counted) -> Check:
+    return Check("uncertainty of the parts by run", counted.by_run, {"runs": counted.runs, "needed": counted.needed})
 
 
 def _springs(parts: Sequence[OnAxisPart]) -> Check:
-    """Whether every part yields with the force, to within its uncertainty."""
-    wrong = tuple(part.name for part in parts if part.compliance.interval()[1] < 0)
-    return Check("springs in series", not wrong, {"negative": wrong}, decisive=bool(wrong))
+    """Whether every part yields with the force, to within its uncertainty; not tested where none is known."""
+    judged = [part for part in parts if part.compliance.known]
+    wrong = tuple(part.name for part in judged if part.compliance.interval()[1] < 0)
+    return Check("springs in series", not wrong if judged else None, {"negative": wrong}, decisive=bool(wrong))
 
 
 def _apart(parts: Sequence[OnAxisPart]) -> Check:

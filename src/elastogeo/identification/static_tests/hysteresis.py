@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from math import inf
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from elastogeo.errors import InputError
 from elastogeo.estimate import Estimate
 from elastogeo.identification.check import Check
 from elastogeo.identification.static_tests.loading_branches import DEAD_BAND, Branch, branches_of, loading_cycles
-from elastogeo.identification.static_tests.loading_curves import Curves, fitted_curves
+from elastogeo.identification.static_tests.loading_curves import FEWEST_CYCLES, Curves, fitted_curves
 from elastogeo.identification.static_tests.straight_line import checked_loading
 from elastogeo.machine import Array
 
@@ -52,8 +52,7 @@ class StaticHysteresis:
     degree : int
         Of the polynomials.
     by_cycle : bool
-        Whether uncertainties come from the scatter between cycles; with one cycle they come from the readings about its
-        curves, and **say nothing of how a second one would differ**.
+        Whether there are cycles enough for uncertainties, which come from the scatter between them; else they are infinite.
     static_compliance : Estimate [mm/N]
         Secant of the middle line over the range.
     rising_secant, falling_secant : Estimate [mm/N]
@@ -67,7 +66,7 @@ class StaticHysteresis:
     backlash : Estimate or None [mm]
         None unless the force takes both signs.
     remaining : Estimate or None [mm]
-        None unless the record begins and ends at zero force.
+        None unless the record begins and ends at zero force. A run has one: nothing shows its uncertainty.
     energy_lost : Estimate [N mm]
         In one cycle: area of the loop over the range.
     residual_std : float [mm]
@@ -170,7 +169,7 @@ def hysteresis(force: Array, displacement: Array, dead_band: float = DEAD_BAND) 
         left_out=tuple(branch for branch in branches if branch not in kept),
         range=(low, high),
         degree=shape.degree,
-        by_cycle=len(cycles) > 1,
+        by_cycle=len(cycles) >= FEWEST_CYCLES,
         static_compliance=static,
         rising_secant=curves.estimate(secant, none),
         falling_secant=curves.estimate(none, secant),
@@ -179,10 +178,8 @@ def hysteresis(force: Array, displacement: Array, dead_band: float = DEAD_BAND) 
         greatest_at=at,
         hysteresis_at_zero=None if zero is None else curves.estimate(-zero, zero),
         backlash=curves.estimate(step, step) if both else None,
-        remaining=_remaining(force, displacement, dead_band, residual_std),
-        energy_lost=Estimate(
-            average.value * (high - low), average.standard_uncertainty * (high - low), average.degrees_of_freedom
-        ),
+        remaining=_remaining(force, displacement, dead_band),
+        energy_lost=average.scaled(high - low),
         residual_std=residual_std,
         checks=_checks(static, average, len(cycles)),
         curves=curves,
@@ -198,7 +195,7 @@ def _greatest(curves: Curves, low: float, high: float) -> tuple[float, Estimate]
     return float(grid[at]), curves.estimate(-rows[at], rows[at])
 
 
-def _remaining(force: Array, displacement: Array, dead_band: float, residual_std: float) -> Estimate | None:
+def _remaining(force: Array, displacement: Array, dead_band: float) -> Estimate | None:
     """Displacement at zero force at the end less that at the beginning, if the record has both."""
     near = np.abs(force) <= dead_band * np.ptp(force)
     if not (near[0] and near[-1]):
@@ -209,20 +206,23 @@ def _remaining(force: Array, displacement: Array, dead_band: float, residual_std
     slope = float(np.ptp(displacement) / np.ptp(force))
     first, last = int(np.argmin(np.abs(force[: len(begin)]))), int(np.argmin(np.abs(force[len(near) - len(end) :])))
     value = end[last] - begin[first] - slope * (force[len(near) - len(end) + last] - force[first])
-    return Estimate(float(value), float(np.sqrt(2) * residual_std), float("inf"))
+    return Estimate(float(value), inf)
 
 
 def _checks(static: Estimate, average: Estimate, cycles: int) -> tuple[Check, ...]:
     """What is to be believed."""
-    with_force, loses = static.interval()[1] > 0, average.interval()[1] > 0
+    enough = cycles >= FEWEST_CYCLES
     return (
-        Check("displacement with the force", with_force, signed_facts({"": static}, {} if with_force else {"": static})),
-        Check("energy is lost, not gained", loses, signed_facts({"": average}, {} if loses else {"": average})),
-        Check("uncertainty by cycle", cycles > 1, {"cycles": cycles, "single": () if cycles > 1 else ("",)}),
+        signed("displacement with the force", {"": static}, 0.95),
+        signed("energy is lost, not gained", {"": average}, 0.95),
+        Check("uncertainty by cycle", enough, {"cycles": cycles, "few": () if enough else ("",), "needed": FEWEST_CYCLES}),
     )
 
 
-def signed_facts(values: Mapping[str, Estimate], wrong: Mapping[str, Estimate]) -> dict[str, Any]:
-    """Facts of a number that must be positive: least and greatest value, and those of the wrong sign by run."""
+def signed(name: str, values: Mapping[str, Estimate], coverage: float) -> Check:
+    """Whether a number that must be positive is so in every run, to within its interval; not tested where none is known."""
+    judged = {run: value for run, value in values.items() if value.known}
+    wrong = {run: value.value for run, value in judged.items() if value.interval(coverage)[1] < 0}
     sizes = [value.value for value in values.values()]
-    return {"least": min(sizes), "greatest": max(sizes), "wrong": {run: value.value for run, value in wrong.items()}}
+    facts = {"least": min(sizes), "greatest": max(sizes), "wrong": wrong, "needed": FEWEST_CYCLES}
+    return Check(name, not wrong if judged else None, facts, decisive=True)

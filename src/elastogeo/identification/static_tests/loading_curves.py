@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -16,6 +17,9 @@ from elastogeo.identification.static_tests.loading_branches import Branch
 from elastogeo.machine import Array
 
 HIGHEST_DEGREE = 5
+
+FEWEST_CYCLES = 3
+"""Cycles without which their scatter has hardly more than one degree of freedom: there is no uncertainty then."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,21 +84,17 @@ class Curves:
     shape : Shape
     rising, falling : array, shape (n, q)
         Coefficients, by cycle.
-    rising_covariance, falling_covariance : array, shape (n, q, q)
-        From the readings about each curve.
     degrees_of_freedom : float
-        Of one cycle's readings.
+        Of the scatter of the readings about their curves.
     """
 
     shape: Shape
     rising: Array
     falling: Array
-    rising_covariance: Array
-    falling_covariance: Array
     degrees_of_freedom: float
 
     def estimate(self, rising: Array, falling: Array) -> Estimate:
-        """A linear function of the curves: its mean over the cycles, and what that is worth.
+        """A linear function of the curves: its mean over the cycles, and what their scatter says of it.
 
         Parameters
         ----------
@@ -103,10 +103,9 @@ class Curves:
         """
         values = self.rising @ rising + self.falling @ falling
         count = len(values)
-        if count > 1:
-            return Estimate(float(values.mean()), float(values.std(ddof=1) / np.sqrt(count)), float(count - 1))
-        variance = rising @ self.rising_covariance[0] @ rising + falling @ self.falling_covariance[0] @ falling
-        return Estimate(float(values[0]), float(np.sqrt(variance)), self.degrees_of_freedom)
+        if count < FEWEST_CYCLES:
+            return Estimate(float(values.mean()), inf)
+        return Estimate(float(values.mean()), float(values.std(ddof=1) / np.sqrt(count)), float(count - 1))
 
 
 def fitted_curves(
@@ -134,12 +133,9 @@ def fitted_curves(
     solved = [_solved(shape, *part) for part in parts]
     n = len(cycles)
     values = np.array([found[0] for found in solved])
-    covariances = np.array([found[1] for found in solved])
-    left = sum(found[2] for found in solved)
+    left = sum(found[1] for found in solved)
     freedom = sum(len(part[0]) - len(shape.labels) for part in parts)
-    variance = left / freedom
-    curves = Curves(shape, values[:n], values[n:], variance * covariances[:n], variance * covariances[n:], float(freedom))
-    return curves, float(np.sqrt(variance))
+    return Curves(shape, values[:n], values[n:], float(freedom)), float(np.sqrt(left / freedom))
 
 
 def _part(force: Array, displacement: Array, branch: Branch) -> tuple[Array, Array]:
@@ -157,14 +153,11 @@ def _supported(force: Array, edges: tuple[float, ...]) -> int:
     return min(degrees)
 
 
-def _solved(shape: Shape, force: Array, displacement: Array) -> tuple[Array, Array, float]:
-    """Coefficients, their covariance for readings of unit variance, and the residual sum of squares."""
+def _solved(shape: Shape, force: Array, displacement: Array) -> tuple[Array, float]:
+    """Coefficients, and the residual sum of squares."""
     rows = shape.rows(force)
     found = solve(factor_blocks(shape.labels, [np.asfortranarray(np.column_stack([rows, displacement]))]))
-    left = float(np.sum((displacement - rows @ found.values) ** 2))
-    triangle = np.linalg.qr(rows, mode="r")
-    root = np.linalg.inv(triangle)
-    return found.values, root @ root.T, left
+    return found.values, float(np.sum((displacement - rows @ found.values) ** 2))
 
 
 def _score(shape: Shape, parts: Sequence[tuple[Array, Array]]) -> float:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from elastogeo.estimate import Estimate
 from elastogeo.identification.check import Check
 from elastogeo.identification.result import Identification
+from elastogeo.identification.static_tests.by_run import Counted
 from elastogeo.identification.static_tests.cartesian import CartesianCompliance, Principal, Symmetry
 from elastogeo.identification.static_tests.drive_train import OnAxis
 from elastogeo.identification.static_tests.hysteresis import StaticHysteresis
@@ -80,12 +81,12 @@ class Cartesian:
     Attributes
     ----------
     compliance : CartesianCompliance
-        In the foundation; of probes on a turning table, the mean over its angles.
+        In the foundation; of probes on a turning table, the mean over its angles. Stated influences are in its uncertainty.
     zeroed : bool
         Whether the probes count as zeroed without load, because no zero was asked for.
     stiffness : array, shape (3, 3) [N/mm], or None
     stiffness_uncertainty : array, shape (3, 3) [N/mm], or None
-        Standard uncertainty of each element, to first order.
+        Standard uncertainty of each element, to first order; infinite where the runs are too few.
     symmetry : Symmetry or None
     principal : tuple of 3 Principal
         The softest first; empty if the compliance is not determined.
@@ -111,14 +112,13 @@ class LoadStep:
     force : float [N]
         Mean of its readings.
     readings : int
-    twist, standard_uncertainty : array, shape (6,) [mm, rad]
-        Mean of the readings, and what it is worth.
+    twist : array, shape (6,) [mm, rad]
+        Mean of the readings. It is of one run: nothing shows its uncertainty.
     """
 
     force: float
     readings: int
     twist: Array
-    standard_uncertainty: Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,20 +134,41 @@ class TwistRun:
         Along the axes in which the sensors are given.
     steps : tuple of LoadStep
         In the order of time.
-    compliance : tuple of 6 Estimate, or empty [mm/N, rad/N]
-        Twist per force: slope of the straight line through each component; empty at one force only.
     """
 
     run: str
     force: Array
     twist: SensorTwist
     steps: tuple[LoadStep, ...]
-    compliance: tuple[Estimate, ...]
 
     @property
     def greatest(self) -> LoadStep:
         """The step of the greatest load."""
         return max(self.steps, key=lambda step: abs(step.force))
+
+
+@dataclass(frozen=True, slots=True)
+class TwistPlace:
+    """Twist per force of all runs that load a sensor frame at one place along one line.
+
+    Attributes
+    ----------
+    commands : mapping of str to float [mm, rad]
+        Where the machine stands.
+    direction : array, shape (3,)
+        In which the force counts as positive, in the foundation.
+    runs : tuple of str
+    compliance : tuple of 6 Estimate [mm/N, rad/N]
+        Slope of the straight line through each component, along the axes in which the sensors are given.
+    counted : Counted
+        What its uncertainties count on.
+    """
+
+    commands: Mapping[str, float]
+    direction: Array
+    runs: tuple[str, ...]
+    compliance: tuple[Estimate, ...]
+    counted: Counted
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -164,6 +185,8 @@ class StaticResults(Result):
         Of displacement probes.
     twists : tuple of TwistRun
         Of a sensor frame; else empty.
+    twist_places : tuple of TwistPlace
+        Of a sensor frame that was loaded at two forces at least; else empty.
     refusal : str
         Why a sensor frame gives no twist.
     verdict : tuple of Check
@@ -174,5 +197,6 @@ class StaticResults(Result):
     places: tuple[LoadedPlace, ...] = ()
     cartesian: Cartesian | None = None
     twists: tuple[TwistRun, ...] = ()
+    twist_places: tuple[TwistPlace, ...] = ()
     refusal: str = ""
     verdict: tuple[Check, ...] = ()

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from elastogeo.errors import InputError, UnsupportedError
-from elastogeo.estimate import Estimate, factor_blocks, solve
+from elastogeo.estimate import Estimate, factor_blocks
+from elastogeo.identification.static_tests.by_run import Counted, solved_by_run
 from elastogeo.machine import Array
 
 _ONE_LEVEL = 1e-9
@@ -28,12 +30,17 @@ class StaticLine:
         Estimated standard deviation of one reading about the line.
     nonlinearity : float [mm]
         Greatest distance of a reading from the line.
+    readings : int
+    counted : Counted
+        What the uncertainties count on; without runs enough they are infinite.
     """
 
     compliance: Estimate
     offset: Estimate
     residual_std: float
     nonlinearity: float
+    readings: int
+    counted: Counted
 
     def stiffness(self) -> Estimate:
         """Inverse of the compliance [N/mm], with its uncertainty to first order.
@@ -46,7 +53,7 @@ class StaticLine:
         return self.compliance.inverse()
 
 
-def static_line(force: Array, displacement: Array) -> StaticLine:
+def static_line(force: Array, displacement: Array, run: Sequence[str | int] | None = None) -> StaticLine:
     """Compliance from loads that need not come back: the straight line through the readings (weights on a rig, Figure 6.11).
 
     Parameters
@@ -54,10 +61,14 @@ def static_line(force: Array, displacement: Array) -> StaticLine:
     force : array, shape (m,) [N]
         Along its direction; two levels at least.
     displacement : array, shape (m,) [mm]
+    run : sequence, length m, optional
+        Which run each reading is of; by default all are of one. A weight that is put on anew for each reading makes each a
+        run.
 
     Notes
     -----
-    Ordinary least squares: the readings scatter independently, the force counts as exact. **It does not see hysteresis.**
+    Ordinary least squares; the uncertainty is that of the scatter between runs, infinite where they are too few for one. The
+    force counts as exact. **It does not see hysteresis.**
 
     Raises
     ------
@@ -67,11 +78,16 @@ def static_line(force: Array, displacement: Array) -> StaticLine:
         If the force has one level only, or there are fewer than three readings.
     """
     force, displacement = checked_loading(force, displacement)
+    of = np.zeros(len(force)) if run is None else np.unique(np.asarray(run), return_inverse=True)[1]
+    if len(of) != len(force):
+        raise InputError(f"{len(force)} readings need the run of each, got {len(of)}")
     rows = np.column_stack([np.ones_like(force), force, displacement])
-    found = solve(factor_blocks(["offset", "compliance"], [np.asfortranarray(rows)]))
+    labels = ("offset", "compliance")
+    runs = [factor_blocks(labels, [np.asfortranarray(rows[of == k])]) for k in range(int(of.max()) + 1)]
+    found, counted = solved_by_run(runs, labels)
     offset, slope = found.estimates()
     left = displacement - offset.value - slope.value * force
-    return StaticLine(slope, offset, found.residual_std, float(np.abs(left).max()))
+    return StaticLine(slope, offset, found.residual_std, float(np.abs(left).max()), len(force), counted)
 
 
 def checked_loading(force: Array, displacement: Array) -> tuple[Array, Array]:

@@ -10,9 +10,10 @@ from scipy.special import fdtrc
 
 from elastogeo.estimate import Estimate
 from elastogeo.identification.check import Check
-from elastogeo.identification.static_tests.hysteresis import StaticHysteresis, signed_facts
-from elastogeo.identification.static_tests.result import Cartesian, LoadedPlace, LoadedRun, TwistRun
-from elastogeo.observe import KnownInfluence
+from elastogeo.identification.static_tests.by_run import Counted
+from elastogeo.identification.static_tests.hysteresis import StaticHysteresis, signed
+from elastogeo.identification.static_tests.loading_curves import FEWEST_CYCLES
+from elastogeo.identification.static_tests.result import Cartesian, LoadedPlace, LoadedRun, TwistPlace, TwistRun
 
 FALSE_ALARM = 0.01
 """Rate at which a sound test fails a check, over all its runs."""
@@ -30,6 +31,8 @@ def loading_checks(places: Sequence[LoadedPlace]) -> tuple[Check, ...]:
     if cycled:
         checks.append(_by_cycle(cycled))
     checks += [check for place in places if (check := _straight(place)) is not None]
+    if lines := [place.line.counted for place in places if place.line is not None]:
+        checks.append(counted_by_run("line", lines))
     for place in places:
         if place.drive is not None:
             name = place.drive.axis
@@ -41,32 +44,24 @@ def loading_checks(places: Sequence[LoadedPlace]) -> tuple[Check, ...]:
 
 def probe_checks(found: Cartesian) -> tuple[Check, ...]:
     """Of displacement probes: determined, symmetric, no energy gained."""
-    if found.symmetry is None:
-        why = found.refusal or "the symmetry of the compliance cannot be judged"
-        return (Check("compliance determined", not found.compliance.undetermined, {"why": why}),)
     checks = found.compliance.checks()
+    if found.compliance.undetermined:
+        return checks
     zeros = Check("zeros of the probes", True, {"zeroed": found.zeroed})
-    counted = Check("Cartesian uncertainty by run", found.compliance.by_run)
+    counted = counted_by_run("matrix", [found.compliance.counted])
     return (*(replace(check, decisive=check.name == "no energy gained") for check in checks), zeros, counted)
 
 
-def twist_checks(runs: Sequence[TwistRun], refusal: str) -> tuple[Check, ...]:
-    """Of a sensor frame: whether it sees the twist, and whether its sensors agree."""
+def twist_checks(runs: Sequence[TwistRun], places: Sequence[TwistPlace], refusal: str) -> tuple[Check, ...]:
+    """Of a sensor frame: whether it sees the twist, whether its sensors agree, and what the uncertainties count on."""
     if not runs:
         return (Check("twist determined", False, {"why": refusal}),)
     suspects = {run.run: run.twist.suspect for run in runs if run.twist.suspect is not None}
     unchecked = tuple(k + 1 for k in range(len(runs[0].twist.redundancy)) if np.isnan(runs[0].twist.outlying[k]))
     facts = {"sensors": len(runs[0].twist.redundancy), "suspects": suspects, "unchecked": unchecked}
     agree = False if suspects else None if unchecked else True
-    return Check("twist determined", True, {"why": ""}), Check("sensors agree", agree, facts)
-
-
-def influence_checks(influences: Sequence[KnownInfluence]) -> tuple[Check, ...]:
-    """What the test states of systematic influences, and where it does not count; nothing if it states none."""
-    if not influences:
-        return ()
-    named = tuple(influence.label or influence.kind for influence in influences)
-    return (Check("systematic influences in the instrument's own results", False, {"stated": named}),)
+    counted = [counted_by_run("twist", [place.counted for place in places])] if places else []
+    return Check("twist determined", True, {"why": ""}), Check("sensors agree", agree, facts), *counted
 
 
 def _cycles(loaded: Sequence[LoadedRun]) -> Check:
@@ -84,15 +79,24 @@ def _cycles(loaded: Sequence[LoadedRun]) -> Check:
 def _signed(name: str, runs: Sequence[LoadedRun], of: Callable[[StaticHysteresis], Estimate]) -> Check:
     """Whether a number that must be positive is so in every run, to within its uncertainty; decisive."""
     values = {run.run: of(run.hysteresis) for run in runs if run.hysteresis is not None}
-    coverage = 1 - 2 * FALSE_ALARM / len(values)
-    wrong = {run: value for run, value in values.items() if value.interval(coverage)[1] < 0}
-    return Check(name, not wrong, signed_facts(values, wrong), decisive=True)
+    return signed(name, values, 1 - 2 * FALSE_ALARM / len(values))
 
 
 def _by_cycle(runs: Sequence[LoadedRun]) -> Check:
-    single = tuple(run.run for run in runs if run.hysteresis is not None and not run.hysteresis.by_cycle)
+    few = tuple(run.run for run in runs if run.hysteresis is not None and not run.hysteresis.by_cycle)
     cycles = sum(len(run.hysteresis.cycles) for run in runs if run.hysteresis is not None)
-    return Check("uncertainty by cycle", not single, {"cycles": cycles, "single": single})
+    return Check("uncertainty by cycle", not few, {"cycles": cycles, "few": few, "needed": FEWEST_CYCLES})
+
+
+def counted_by_run(what: str, counted: Sequence[Counted]) -> Check:
+    """Whether each of an instrument's own results has an uncertainty, by the scatter of its runs."""
+    few = [one for one in counted if not one.by_run]
+    facts = {
+        "what": what,
+        "runs": min((one.runs for one in few), default=max(one.runs for one in counted)),
+        "needed": max((one.needed for one in few if one.needed is not None), default=None),
+    }
+    return Check("uncertainty of the instrument's results by run", not few, facts)
 
 
 def _straight(place: LoadedPlace) -> Check | None:
@@ -107,5 +111,5 @@ def _straight(place: LoadedPlace) -> Check | None:
     if not curved:
         return None
     ratio = (line.residual_std / curved) ** 2
-    straight = bool(fdtrc(line.compliance.degrees_of_freedom, freedom, ratio) >= FALSE_ALARM)
+    straight = bool(fdtrc(line.readings - 2, freedom, ratio) >= FALSE_ALARM)
     return Check("straight line enough", straight, {"line": line.residual_std, "curves": curved})

@@ -9,44 +9,47 @@ places : [{commands, direction, along, runs, line, refusal, drive, drive_refusal
         falling_secant, mean_hysteresis, greatest_hysteresis, greatest_at_N, hysteresis_at_zero, backlash, remaining,
         energy_lost, residual_std_um, refusal}]
         cycles, branches, left_out : how many there are, and how many branches do not count
-        by_cycle : whether the uncertainties come from the scatter of cycles
+        by_cycle : whether there are cycles enough for uncertainties, which come from their scatter
         degree : of the polynomials through the branches
         static_compliance, rising_secant, falling_secant : numbers [um/N]
         mean_hysteresis, greatest_hysteresis, hysteresis_at_zero, backlash, remaining : numbers [um], or null
         energy_lost : number [N mm] of one cycle
         refusal : why there is no hysteresis; all the rest is then null
-    line : {compliance [um/N], offset [um], residual_std_um, greatest_departure_um}, or null for the reason `refusal`
+    line : {compliance [um/N], offset [um], residual_std_um, greatest_departure_um, runs, by_run, needed}, or null for the
+        reason `refusal`
     drive : {axis, feedback, parts, whole, limits}, or null (for the reason `drive_refusal`, if positions were recorded)
         parts : [{names, compliance [um/N], acts, share}]; more than one name where parts are not told apart
         whole : number [um/N], or null
         limits : what cannot be said, in sentences
-cartesian : {compliance, undetermined, zeroed, zeros, by_run, residual_std_um, stiffness, symmetry, principal, refusal} of
-    displacement probes, or null
+cartesian : {compliance, undetermined, zeroed, zeros, runs, by_run, needed, residual_std_um, stiffness, symmetry, principal,
+    refusal} of displacement probes, or null
     compliance : {value_um_per_N, standard_uncertainty_um_per_N, interval95_um_per_N}, matrices in the foundation; row:
         displacement, column: force; null where it is not determined
     zeroed : whether the probes count as zeroed without load; else `zeros` holds the number [um] of each
     stiffness : {value_N_per_um, standard_uncertainty_N_per_um}, matrices, or null for the reason `refusal`
     symmetry : {differences_um_per_N: XY-YX, XZ-ZX, YZ-ZY, chi_squared, probability}, or null
     principal : [{direction, direction_uncertainty_rad, compliance [um/N]}], the softest first
-twists : [{run, steps, compliance, degrees_of_freedom, standard_deviation_um, redundancy, outlying, suspect}] of a sensor
-    frame, along the axes in which the sensors are given; else empty
-    steps : [{force_N, readings, translation_um, rotation_urad, translation_uncertainty_um, rotation_uncertainty_urad}]
-    compliance : [six numbers: X, Y, Z in um/N, A, B, C in urad/N]; empty at one force only
-    degrees_of_freedom : of the uncertainties of the steps; null for infinite ones
+twists : [{run, steps, standard_deviation_um, redundancy, outlying, suspect}] of a sensor frame, along the axes in which the
+    sensors are given; else empty
+    steps : [{force_N, readings, translation_um, rotation_urad}]
     redundancy : by sensor, the share of its error that shows in its own residual
     outlying : by sensor, the probability that a sound one stands out so far; null where nothing checks it
     suspect : number, from 1, of the sensor that stands out, or null
+twist_places : [{commands, direction, runs, compliance, by_run, needed}] of a sensor frame, by place and line of the force
+    runs : names
+    compliance : [six numbers: X, Y, Z in um/N, A, B, C in urad/N]
 twist_refusal : why a sensor frame gives no twist, or empty
 joints : `elastogeo.identification/1`, of what the test's own question asks for
 
-A number is {value, standard_uncertainty, interval95, degrees_of_freedom}, in the unit in brackets above.
+A number is {value, standard_uncertainty, interval95, degrees_of_freedom}, in the unit in brackets above; all but the value
+are null where runs or cycles are too few to show the uncertainty. by_run : whether there are runs enough; needed : how many
+it takes, or null.
 """
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Any
-
-import numpy as np
 
 from elastogeo.estimate import Estimate
 from elastogeo.identification.static_tests import (
@@ -57,6 +60,7 @@ from elastogeo.identification.static_tests import (
     OnAxis,
     StaticLine,
     StaticResults,
+    TwistPlace,
     TwistRun,
 )
 from elastogeo.report.document import UM, document, tested, verdict_entries
@@ -86,6 +90,7 @@ def static_json(found: StaticResults) -> dict[str, Any]:
             "places": [_place(place) for place in found.places],
             "cartesian": None if found.cartesian is None else _cartesian(found.cartesian),
             "twists": [_twist(run) for run in found.twists],
+            "twist_places": [_twist_place(place) for place in found.twist_places],
             "twist_refusal": found.refusal,
             "joints": identification_json(found.joints),
             "verdict": verdict_entries(found.verdict),
@@ -98,9 +103,9 @@ def _number(found: Estimate | None, scale: float) -> dict[str, Any] | None:
         return None
     return {
         "value": found.value * scale,
-        "standard_uncertainty": found.standard_uncertainty * scale,
-        "interval95": [bound * scale for bound in found.interval()],
-        "degrees_of_freedom": found.degrees_of_freedom,
+        "standard_uncertainty": found.standard_uncertainty * scale if found.known else None,
+        "interval95": [bound * scale for bound in found.interval()] if found.known else None,
+        "degrees_of_freedom": found.degrees_of_freedom if found.known else None,
     }
 
 
@@ -141,6 +146,7 @@ def _line(line: StaticLine) -> dict[str, Any]:
         "offset": _number(line.offset, UM),
         "residual_std_um": line.residual_std * UM,
         "greatest_departure_um": line.nonlinearity * UM,
+        **asdict(line.counted),
     }
 
 
@@ -167,19 +173,19 @@ def _cartesian(found: Cartesian) -> dict[str, Any]:
     return {
         "compliance": {
             "value_um_per_N": compliance.compliance * UM,
-            "standard_uncertainty_um_per_N": compliance.standard_uncertainty * UM,
-            "interval95_um_per_N": compliance.interval() * UM,
+            "standard_uncertainty_um_per_N": compliance.standard_uncertainty * UM if compliance.counted.by_run else None,
+            "interval95_um_per_N": compliance.interval() * UM if compliance.counted.by_run else None,
         },
         "undetermined": compliance.undetermined,
         "zeroed": found.zeroed,
         "zeros": [_number(zero, UM) for zero in compliance.zeros],
-        "by_run": compliance.by_run,
+        **asdict(compliance.counted),
         "residual_std_um": compliance.residual_std * UM,
         "stiffness": None
         if found.stiffness is None or found.stiffness_uncertainty is None
         else {
             "value_N_per_um": found.stiffness / UM,
-            "standard_uncertainty_N_per_um": found.stiffness_uncertainty / UM,
+            "standard_uncertainty_N_per_um": found.stiffness_uncertainty / UM if compliance.counted.by_run else None,
         },
         "symmetry": None
         if symmetry is None
@@ -201,16 +207,25 @@ def _cartesian(found: Cartesian) -> dict[str, Any]:
 
 
 def _twist(run: TwistRun) -> dict[str, Any]:
-    scales = np.array([UM] * 3 + [_MICRO] * 3)
     return {
         "run": run.run,
         "steps": [_step(step) for step in run.steps],
-        "compliance": [_number(one, float(scale)) for one, scale in zip(run.compliance, scales, strict=False)],
-        "degrees_of_freedom": run.twist.degrees_of_freedom,
         "standard_deviation_um": run.twist.standard_deviation * UM,
         "redundancy": run.twist.redundancy,
         "outlying": run.twist.outlying,
         "suspect": run.twist.suspect,
+    }
+
+
+def _twist_place(place: TwistPlace) -> dict[str, Any]:
+    scales = (UM,) * 3 + (_MICRO,) * 3
+    return {
+        "commands": place.commands,
+        "direction": place.direction,
+        "runs": place.runs,
+        "compliance": [_number(one, scale) for one, scale in zip(place.compliance, scales, strict=True)],
+        "by_run": place.counted.by_run,
+        "needed": place.counted.needed,
     }
 
 
@@ -220,6 +235,4 @@ def _step(step: LoadStep) -> dict[str, Any]:
         "readings": step.readings,
         "translation_um": step.twist[:3] * UM,
         "rotation_urad": step.twist[3:] * _MICRO,
-        "translation_uncertainty_um": step.standard_uncertainty[:3] * UM,
-        "rotation_uncertainty_urad": step.standard_uncertainty[3:] * _MICRO,
     }

@@ -6,6 +6,14 @@ from elastogeo.report.numbers import probability, significant
 from elastogeo.report.sentences import Facts, says
 from elastogeo.report.text import UM
 
+_RESULTS = {
+    "line": "the straight line",
+    "matrix": "the Cartesian compliance",
+    "twist": "the twist per force",
+}
+_ONE = set(_RESULTS.values())
+_TIMES = {3: "three"}
+
 _MICRO = 1e6
 """Nanometres in a millimetre."""
 
@@ -13,6 +21,8 @@ _MICRO = 1e6
 @says("displacement with the force")
 def displacement_with_the_force(facts: Facts, passed: bool | None) -> str:
     """The static compliance, and the runs in which it is negative."""
+    if passed is None:
+        return _not_judged(facts, "static compliance")
     if passed:
         return f"Static compliance: {_extent(facts, _MICRO)} nm/N."
     return f"Static compliance{_wrong(facts, _MICRO)} nm/N; the displacement goes against the force: turn the sensor's sign."
@@ -21,6 +31,8 @@ def displacement_with_the_force(facts: Facts, passed: bool | None) -> str:
 @says("energy is lost, not gained")
 def energy_is_lost(facts: Facts, passed: bool | None) -> str:
     """The mean hysteresis, and the loops that run the wrong way round."""
+    if passed is None:
+        return _not_judged(facts, "mean hysteresis")
     if passed:
         return f"Mean hysteresis: {_extent(facts, UM)} µm."
     return (
@@ -35,11 +47,10 @@ def uncertainty_by_cycle(facts: Facts, passed: bool | None) -> str:
     """Whether the uncertainty comes from the scatter of cycles."""
     if passed:
         return f"The uncertainties of each run come from the scatter of its cycles, {facts['cycles']} in all."
-    runs = ", ".join(filter(None, facts["single"]))
+    runs = ", ".join(filter(None, facts["few"]))
     return (
-        f"One cycle only{f' in run {runs}' if runs else ''}: the uncertainties assume independent readings and do "
-        f"not say how a "
-        f"second cycle would differ; load it three times at least."
+        f"Too few cycles{f' in run {runs}' if runs else ''} to show how a further one would differ: no interval is given; "
+        f"load {_TIMES.get(facts['needed'], facts['needed'])} times at least in a run."
     )
 
 
@@ -66,6 +77,8 @@ def straight_line_enough(facts: Facts, passed: bool | None) -> str:
 @says("springs in series")
 def springs_in_series(facts: Facts, passed: bool | None) -> str:
     """Which parts of a drive have a negative compliance."""
+    if passed is None:
+        return "Not tested: the runs are too few to show how the parts scatter."
     if passed:
         return "No part yields against the force by more than its uncertainty."
     return (
@@ -77,14 +90,9 @@ def springs_in_series(facts: Facts, passed: bool | None) -> str:
 @says("uncertainty of the parts by run")
 def uncertainty_of_the_parts(facts: Facts, passed: bool | None) -> str:
     """What the uncertainties of the parts of a drive assume to be independent."""
-    runs = facts["runs"]
     if passed:
-        return f"The uncertainties come from the scatter of {runs} runs."
-    return (
-        f"The uncertainties assume independent readings, because {runs} run{'s are' if runs > 1 else ' is'} too "
-        f"few. Readings "
-        f"along a load rarely are: repeat the load in several runs."
-    )
+        return f"The uncertainties come from the scatter of {facts['runs']} runs."
+    return _too_few(facts, "the parts")
 
 
 @says("parts distinguished")
@@ -110,6 +118,8 @@ def compliance_determined(facts: Facts, passed: bool | None) -> str:
 @says("reciprocity")
 def reciprocity(facts: Facts, passed: bool | None) -> str:
     """Whether C_ij and C_ji are the same."""
+    if passed is None:
+        return f"Not tested: {facts['why']}."
     said = (
         f"C_ij and C_ji differ by {significant(facts['greatest'] * _MICRO)} nm/N at most, chi-squared "
         f"{significant(facts['chi_squared'])} of three (p = {probability(facts['p_value'])})"
@@ -121,6 +131,8 @@ def reciprocity(facts: Facts, passed: bool | None) -> str:
 def no_energy_gained(facts: Facts, passed: bool | None) -> str:
     """Whether the least principal compliance is positive."""
     said = f"The least principal compliance is {significant(facts['least'] * _MICRO)} nm/N"
+    if passed is None:
+        return f"Not tested: {said[:1].lower()}{said[1:]}, and the runs are too few to show how it scatters."
     return f"{said}{'.' if passed else ': a force would gain energy; look at the signs of the probes.'}"
 
 
@@ -132,15 +144,13 @@ def zeros_of_the_probes(facts: Facts, passed: bool | None) -> str:  # noqa: ARG0
     return "The zero of each probe is estimated with the compliance."
 
 
-@says("Cartesian uncertainty by run")
-def cartesian_uncertainty_by_run(facts: Facts, passed: bool | None) -> str:  # noqa: ARG001
-    """Whether the uncertainty of the Cartesian compliance comes from the scatter of runs."""
+@says("uncertainty of the instrument's results by run")
+def uncertainty_of_the_results(facts: Facts, passed: bool | None) -> str:
+    """Whether the uncertainty of line, matrix or twist comes from the scatter of runs."""
+    what = _RESULTS[facts["what"]]
     if passed:
-        return "The uncertainties of the Cartesian compliance come from the scatter of the runs."
-    return (
-        "The uncertainties of the Cartesian compliance assume independent readings, because the runs are too few; readings "
-        "along a turn rarely are: repeat the runs."
-    )
+        return f"The uncertainties of {what} come from the scatter of the runs."
+    return _too_few(facts, what)
 
 
 @says("twist determined")
@@ -164,14 +174,16 @@ def sensors_agree(facts: Facts, passed: bool | None) -> str:
     )
 
 
-@says("systematic influences in the instrument's own results")
-def influences_left_out(facts: Facts, passed: bool | None) -> str:  # noqa: ARG001
-    """Which influences the instrument's own results do not hold."""
-    return (
-        f"The uncertainties of the joints include {', '.join(facts['stated'])}; those of the instrument's own "
-        f"results (loops, "
-        f"line, matrix, twist) do not: they are of repeatability alone."
-    )
+def _too_few(facts: Facts, what: str) -> str:
+    runs, needed = facts["runs"], facts["needed"]
+    few = f"{runs} run{'s are' if runs > 1 else ' is'} too few to show how {what} scatter{'s' if what in _ONE else ''}"
+    do = "repeat the runs" if needed is None else f"{needed} runs like these give one"
+    return f"{few}: no interval is given; {do}."
+
+
+def _not_judged(facts: Facts, what: str) -> str:
+    cycles = _TIMES.get(facts["needed"], facts["needed"])
+    return f"Not tested: with fewer than {cycles} cycles in a run nothing shows how the {what} scatters."
 
 
 def _extent(facts: Facts, scale: float) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +19,7 @@ from elastogeo.identification.static_tests import (
     Principal,
     StaticLine,
     StaticResults,
+    TwistPlace,
     TwistRun,
 )
 from elastogeo.machine import Array
@@ -43,14 +45,14 @@ _POINTS = 1500
 
 
 def static_tables(found: StaticResults) -> tuple[Table, ...]:
-    """All that the instrument itself shows; `value ± U`, where U is half the 95 % interval."""
+    """All that the instrument itself shows: `value ± U`, U half the 95 % interval; without U where none is known."""
     tables: list[Table] = []
     if found.places:
         tables += _loading(found.places)
     if found.cartesian is not None:
         tables += _cartesian(found.cartesian)
     if found.twists:
-        tables += _twists(found.twists)
+        tables += _twists(found.twists, found.twist_places)
     return tuple(tables)
 
 
@@ -153,13 +155,18 @@ def _cartesian(found: Cartesian) -> Iterator[Table]:
     columns = tuple(f"force along {axis}" for axis in _AXES)
     yield Table(("displacement", *columns), rows, title="Cartesian compliance [nm/N], in the foundation", note=found.refusal)
     if found.stiffness is not None and found.stiffness_uncertainty is not None:
-        K, u = found.stiffness / UM, found.stiffness_uncertainty / UM
+        K, u, known = found.stiffness / UM, found.stiffness_uncertainty / UM, found.compliance.counted.by_run
         matrix = tuple(
-            (f"along {_AXES[i]}", *(f"{significant(K[i, j], 4)} (u {significant(u[i, j], 2)})" for j in range(3)))
+            (
+                f"along {_AXES[i]}",
+                *(significant(K[i, j], 4) + (f" (u {significant(u[i, j], 2)})" if known else "") for j in range(3)),
+            )
             for i in range(3)
         )
         headings = ("force", *(f"displacement along {axis}" for axis in _AXES))
-        yield Table(headings, matrix, title="Cartesian stiffness [N/µm] and its standard uncertainty")
+        yield Table(
+            headings, matrix, title="Cartesian stiffness [N/µm]" + (" and its standard uncertainty" if known else "")
+        )
     if found.principal:
         principal = tuple(
             (
@@ -174,27 +181,30 @@ def _cartesian(found: Cartesian) -> Iterator[Table]:
         yield Table(headings, principal, title="Principal directions, the softest first")
 
 
-def _twists(runs: Sequence[TwistRun]) -> Iterator[Table]:
-    """Twist at the greatest load, and per force."""
+def _twists(runs: Sequence[TwistRun], places: Sequence[TwistPlace]) -> Iterator[Table]:
+    """Twist at the greatest load of every run, and per force over all runs."""
     components = [*(f"{axis} [µm]" for axis in _AXES), *(f"{axis} [µrad]" for axis in "ABC")]
     scale = np.array([UM] * 3 + [_MICRO] * 3)
     rows = []
     for run in runs:
         step = run.greatest
-        interval = [
-            Estimate(float(value), float(u), run.twist.degrees_of_freedom).interval()
-            for value, u in zip(step.twist, step.standard_uncertainty, strict=True)
-        ]
-        said = [_said_half(step.twist[k], interval[k], scale[k]) for k in range(6)]
+        said = [significant(float(value), 4) for value in step.twist * scale]
         suspect = "none" if run.twist.suspect is None else str(run.twist.suspect)
         rows.append((run.run, f"{step.force:.4g}", *said, suspect))
     yield Table(("run", "force [N]", *components, "suspect"), tuple(rows), title="Twist of the tool at the greatest load")
-    sloped = [run for run in runs if run.compliance]
-    if sloped:
+    if places:
         per = np.array([_MICRO] * 3 + [_NANO] * 3)
-        slopes = tuple((run.run, *(_said(estimate, per[k]) for k, estimate in enumerate(run.compliance))) for run in sloped)
-        headings = ("run", *(f"{axis} [nm/N]" for axis in _AXES), *(f"{axis} [nrad/N]" for axis in "ABC"))
-        yield Table(headings, slopes, title="Twist per force")
+        slopes = tuple(
+            (
+                _place(place),
+                _vector(place.direction),
+                str(len(place.runs)),
+                *(_said(estimate, per[k]) for k, estimate in enumerate(place.compliance)),
+            )
+            for place in places
+        )
+        per_force = (*(f"{axis} [nm/N]" for axis in _AXES), *(f"{axis} [nrad/N]" for axis in "ABC"))
+        yield Table(("place", "direction", "runs", *per_force), slopes, (0, 1), "Twist per force, all runs")
 
 
 def key_values(found: StaticResults) -> tuple[KeyValue, ...]:
@@ -215,12 +225,12 @@ def key_values(found: StaticResults) -> tuple[KeyValue, ...]:
         for name, one in zip(names, found.cartesian.principal, strict=False):
             along = f"principal direction {_vector(one.direction)}"
             values.append(KeyValue(f"{name} compliance", _said(one.compliance, _MICRO), "nm/N", along))
-    for twisted in found.twists[:1]:
+    for twisted in found.twist_places[:1]:
         units = ("nm/N",) * 3 + ("nrad/N",) * 3
         for k, estimate in enumerate(twisted.compliance[:KEY_VALUES]):
             scale = _MICRO if k < 3 else _NANO
             values.append(
-                KeyValue(f"twist per force, {'XYZABC'[k]}", _said(estimate, scale), units[k], f"run {twisted.run}")
+                KeyValue(f"twist per force, {'XYZABC'[k]}", _said(estimate, scale), units[k], f"{len(twisted.runs)} runs")
             )
     return tuple(values[:KEY_VALUES])
 
@@ -304,6 +314,9 @@ def _said(estimate: Estimate | None, scale: float) -> str:
 
 
 def _said_half(value: float, interval: Sequence[float], scale: float) -> str:
+    """`value ± U`; the value alone where nothing shows its uncertainty."""
+    if isfinite(value) and not isfinite(interval[1] - interval[0]):
+        return significant(value * scale, 4)
     return value_with_uncertainty(value * scale, (interval[1] - interval[0]) / 2 * scale)
 
 
@@ -315,7 +328,7 @@ def _stiffness(soft: StaticLine | Principal) -> str:
         return UNKNOWN
 
 
-def _place(place: LoadedPlace) -> str:
+def _place(place: LoadedPlace | TwistPlace) -> str:
     return " ".join(f"{axis}{value:.4g}" for axis, value in sorted(place.commands.items()))
 
 
