@@ -145,7 +145,9 @@ def test_every_block_of_its_page_runs_from_the_root(call: Call, monkeypatch: pyt
             assert "more than scatter" in done.stdout
             continue
         program, command, *arguments = shlex.split(code)
-        assert (program, command) == ("elastogeo", "static")
+        assert program == "elastogeo"
+        if command != "static":  # `new`, `simulate`, `identify` of every instrument: tests/formats/test_templates.py
+            continue
         code, out = call(*arguments)
         assert code == 0
         assert out
