@@ -31,6 +31,8 @@ KEYS = {
     "columns",
     "condition_raw",
     "condition_scaled",
+    "singular_values",
+    "linear",
     "rmse_um",
     "levels",
     "local",
@@ -60,6 +62,7 @@ PARAMETER_KEYS = {
     "naive_standard_uncertainty",
     "budget",
     "monte_carlo",
+    "truth",
 }
 
 
@@ -202,6 +205,29 @@ def test_what_models_forces_and_physics_say(separated, poor) -> None:
     assert document["levels"][-1]["elastic_um"] == [1000 * bound for bound in separated.levels[-1].elastic]
     assert identification_json(poor)["models"] is None
     assert identification_json(replace(poor, consistency=None, local_change=None))["consistency"] is None
+
+
+def test_the_linear_model_and_the_fit_of_each_level(separated, rich) -> None:
+    document = identification_json(separated)
+    model = {entry["name"]: entry for entry in document["linear"]["values"]}
+    assert document["linear"]["by_run"] is True
+    assert document["linear"]["compliances"] == [name for name in separated if name.startswith("C_")]
+    assert model["CF1_XXX"]["value"] == separated.variable.solution.estimate("CF1_XXX").value
+    assert document["linear"]["rmse_um"] == 1000 * separated.variable.rmse
+    for entry, level in zip(document["levels"], separated.levels, strict=True):
+        assert entry["linear"] == {"rmse_um": 1000 * level.variable.rmse, "fitness_percent": level.variable.fitness}
+        assert entry["local"]["rmse_um"] == 1000 * level.local.rmse
+    without = replace(separated, variable=replace(separated.variable, by_run=False))
+    assert {entry["standard_uncertainty"] for entry in identification_json(without)["linear"]["values"]} == {None}
+    assert identification_json(rich)["linear"] is None
+    assert identification_json(rich)["levels"][0]["linear"] is None
+
+
+def test_the_truth_of_simulated_readings(separated, poor) -> None:
+    truth = {entry["name"]: entry["truth"] for entry in identification_json(separated)["parameters"]}
+    assert truth["C_XXX"] == 6.19e-5
+    assert truth["E_YX2"] == 0.0
+    assert {entry["truth"] for entry in identification_json(poor)["parameters"]} == {None}
 
 
 def test_what_is_not_separated_says_so(mixed) -> None:

@@ -19,7 +19,8 @@ from elastogeo.report.drawing.svg import drawn as svg_of
 from elastogeo.report.drawing.svg import inline
 from elastogeo.report.text import parameter_rows
 
-ALWAYS = {"traces", "residuals", "contributions", "patterns"}
+ALWAYS = {"traces", "residuals", "contributions", "parts", "patterns"}
+LOCAL = {"local", "local-traces"}
 
 
 def figure(result, name):
@@ -31,10 +32,10 @@ def names(result):
 
 
 def test_every_figure_that_there_is_something_for(rich, poor, geometric, separated, mixed) -> None:
-    assert names(rich) == {*ALWAYS, "local", "repeats"}
+    assert names(rich) == {*ALWAYS, *LOCAL, "repeats"}
     assert names(poor) == ALWAYS
-    assert names(geometric) == {*ALWAYS, "separation", "local", "models"}
-    assert names(separated) == {*ALWAYS, "separation", "local", "models", "budget", "repeats"}
+    assert names(geometric) == {*ALWAYS, *LOCAL, "separation", "local-separation", "models"}
+    assert names(separated) == {*ALWAYS, *LOCAL, "separation", "local-separation", "models", "budget", "repeats"}
     assert names(mixed) == {*ALWAYS, "repeats"}
     assert "ranking" in names(diagnose(separated))
 

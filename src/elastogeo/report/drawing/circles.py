@@ -99,21 +99,23 @@ def spokes(ax: Axes, radius: float, axes: Sequence[str] = ()) -> None:
         ax.text(1.03 * radius * x, 1.03 * radius * y, name, ha=ha, va=va, fontsize=SMALL, color=GREY)
 
 
-def centre_part(angle: Array, deviation: Array) -> Array:
+def centre_part(angle: Array, deviation: Array, at: Array) -> Array:
     """The part of a trace that an offset of the circle's centre makes: least squares, orders 0 and 1; of order 1 only.
 
     Parameters
     ----------
     angle, deviation : array, shape (m,) [rad], [mm]
+    at : array, shape (k,) [rad]
+        Where it is wanted.
 
     Returns
     -------
-    array, shape (m,) [mm]
+    array, shape (k,) [mm]
         To subtract from the trace, as ball-bar software does before it draws one.
     """
     first = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle)])
     fitted = np.linalg.lstsq(first, deviation, rcond=None)[0]
-    return np.asarray(first[:, 1:] @ fitted[1:])
+    return np.asarray(fitted[1] * np.cos(at) + fitted[2] * np.sin(at))
 
 
 def around(angle: Array, deviation: Array, scale: Scale, traces: int) -> tuple[Array, Array]:

@@ -63,6 +63,8 @@ _DIRECTIONS = {
     -1: LinearSegmentedColormap.from_list("cw", ["#f6c39b", "#ef8a4a", "#d55e00", "#a84a00"]),
 }
 _POINTS, _FEWEST = 30000, 150
+_EDGE_RIGHT = 0.12
+"""Room at the right of a figure [in]."""
 _LOCK = RLock()  # matplotlib's settings are global, and a web application draws from several threads
 
 
@@ -86,6 +88,37 @@ def laid_out(figure: Figure) -> Figure:
         figure.set_dpi(FigureCanvasSVG.fixed_dpi)
         layout.execute(figure)
         figure.set_layout_engine(None)
+    return figure
+
+
+def panels(
+    rows: int,
+    columns: int,
+    height: float,
+    beside: float,
+    above: float,
+    below: float,
+    between: float = 0.0,
+    one_scale: bool = False,
+) -> Figure:
+    """A figure of panels at places for which nothing has to be measured: it takes a third of the time of `grid`.
+
+    Parameters
+    ----------
+    rows, columns : int
+    height : float [in]
+        Of a panel.
+    beside, above, below, between : float [in]
+        Room to the left of each panel, above the first row, below the last and between rows.
+    one_scale : bool
+        Whether all panels have the same scales.
+    """
+    whole = rows * height + (rows - 1) * between + above + below
+    width = (WIDTH - columns * beside - _EDGE_RIGHT) / columns
+    places = {"left": beside / WIDTH, "right": 1 - _EDGE_RIGHT / WIDTH, "bottom": below / whole, "top": 1 - above / whole}
+    apart = {"wspace": beside / width, "hspace": between / height}
+    figure = Figure(figsize=(WIDTH, whole))
+    figure.subplots(rows, columns, sharex=one_scale, sharey=one_scale, squeeze=False, gridspec_kw={**places, **apart})
     return figure
 
 

@@ -10,7 +10,7 @@ tests : [{name, ..., id, readings, forces_N, rmse_um, scatter_um, rank, alone, r
 together : [name], of several tests the `parameters` that none of them determines alone
 by_run : whether the runs are enough for an uncertainty that counts on independent runs; if not, there is none
 parameters : the retained set, [{name, value, unit, standard_uncertainty, interval95, stands_for, peak_to_peak_um, share,
-    meaning, axis, elastic, separated, degrees_of_freedom, naive_standard_uncertainty, budget}]
+    meaning, axis, elastic, separated, degrees_of_freedom, naive_standard_uncertainty, budget, truth}]
     `stands_for` is {name: coefficient}, `peak_to_peak_um` has the sign of the value and is that at the highest force,
     what shifts all readings alike counts in full; `share` is 0 to 1 of the sum of all absolute ones without the set-up,
     0 for the set-up; `axis` is empty for the set-up, `elastic` is true if a load drives it. Where `separated` is false,
@@ -19,15 +19,21 @@ parameters : the retained set, [{name, value, unit, standard_uncertainty, interv
     those of the budget, null where `by_run` is false, and `budget` is empty then; `naive_standard_uncertainty` is the
     repeatability that independent readings would have, and no uncertainty. `budget` is [{label, type, distribution,
     degrees_of_freedom, contribution}], greatest first, `type` "A" or "B", `contribution` the standard uncertainty that
-    the influence brings, in `unit`.
+    the influence brings, in `unit`. `truth` is what it stands for truly amounts to, of simulated readings that say so; else
+    null.
 null : [name], parameters that change no reading
 confounded : [[name, name, ...]], parameters that always produce the same trace but for its size
 rank, columns : how many combinations are determined, of how many parameters
 condition_raw, condition_scaled : of the retained columns as they are, and scaled to unit length
+singular_values : of the scaled retained columns, greatest first
 rmse_um : over all readings
-levels : [{test, force_N, readings, rmse_um, fitness_percent, elastic_um, geometric_um}], forces and readings less the
-    reference's if one was taken off; the last two are [least, greatest] deviation that compliance, and that geometry
-    without the set-up, cause; null unless every parameter is separated
+levels : [{test, force_N, readings, rmse_um, fitness_percent, elastic_um, geometric_um, linear, local}], forces and readings
+    less the reference's if one was taken off; `elastic_um` and `geometric_um` are [least, greatest] deviation that compliance,
+    and that geometry without the set-up, cause; null unless every parameter is separated. `linear` and `local` are null,
+    or {rmse_um, fitness_percent} of the linear model and of the local estimates that the level is part of (Table 5.9)
+linear : null, or {compliances, by_run, rmse_um, values: [{name, value, standard_uncertainty, degrees_of_freedom}]}, the
+    model in which every compliance is `C0 + C1 F` (Eq. 5.39): `C_XXX` at no force, `CF1_XXX` what it gains per newton;
+    the uncertainties hold the scatter alone and are null where the runs are too few
 local : [{forces_N, values: [{name, value, standard_uncertainty, degrees_of_freedom, peak_to_peak_um}]}], from adjacent
     levels; the uncertainty is that of a scatter that is alike in all shapes of a trace
 local_change : null, or {statistic, q, degrees_of_freedom, p_value, significant, each: {name: p_value}}, whether the local
@@ -58,12 +64,14 @@ from elastogeo.identification import (
     BudgetLine,
     Change,
     Consistency,
+    Fit,
     Identification,
     Level,
     Local,
     ModelChoice,
     Parameter,
     TestPart,
+    VariableCompliance,
 )
 from elastogeo.report.document import UM, document, in_um, tested, tested_together, verdict_entries
 
@@ -96,6 +104,7 @@ def identification_json(result: Identification) -> dict[str, Any]:
             **confounding_entries(result.confounding),
             "rmse_um": result.rmse * UM,
             "levels": [_level(level, separated) for level in result.levels],
+            "linear": None if result.variable is None else _linear(result.variable),
             "local": [_local(local) for local in result.local],
             "local_change": None if result.local_change is None else change_entry(result.local_change),
             "models": None if result.models is None else _models(result.models),
@@ -138,6 +147,7 @@ def confounding_entries(found: Confounding) -> dict[str, Any]:
         "columns": len(found.labels),
         "condition_raw": found.condition_raw,
         "condition_scaled": found.condition_scaled,
+        "singular_values": found.singular_values,
     }
 
 
@@ -170,6 +180,7 @@ def _parameter(result: Identification, k: int, parameter: Parameter) -> dict[str
         "degrees_of_freedom": parameter.degrees_of_freedom,
         "naive_standard_uncertainty": result.naive.standard_uncertainty[k],
         "budget": [_budget_line(line) for line in result.budget.lines[k]] if result.by_run else [],
+        "truth": parameter.truth,
         "monte_carlo": None if result.agreement is None else _draws(result.agreement, k),
     }
 
@@ -203,6 +214,30 @@ def _level(level: Level, separated: bool) -> dict[str, Any]:
         "fitness_percent": level.fitness,
         "elastic_um": [bound * UM for bound in level.elastic] if separated else None,
         "geometric_um": [bound * UM for bound in level.geometric] if separated else None,
+        "linear": None if level.variable is None else _fit(level.variable),
+        "local": None if level.local is None else _fit(level.local),
+    }
+
+
+def _fit(fit: Fit) -> dict[str, Any]:
+    return {"rmse_um": fit.rmse * UM, "fitness_percent": fit.fitness}
+
+
+def _linear(model: VariableCompliance) -> dict[str, Any]:
+    solution = model.solution
+    return {
+        "compliances": model.elastic,
+        "by_run": model.by_run,
+        "rmse_um": model.rmse * UM,
+        "values": [
+            {
+                "name": name,
+                "value": solution.values[k],
+                "standard_uncertainty": solution.standard_uncertainty[k] if model.by_run else None,
+                "degrees_of_freedom": solution.degrees_of_freedom[k] if model.by_run else None,
+            }
+            for k, name in enumerate(solution.labels)
+        ],
     }
 
 

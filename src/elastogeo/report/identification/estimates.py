@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from elastogeo.estimate import Repeatability
-from elastogeo.identification import Identification
+from elastogeo.identification import Identification, VariableCompliance
 from elastogeo.machine import Array
-from elastogeo.report.drawing.style import BLUE, GREY, INK, ORANGE, SMALL, grid
+from elastogeo.report.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, SMALL, grid
 from elastogeo.report.numbers import DisplayUnit
 from elastogeo.report.text import display_units, label, labels
 
@@ -18,7 +20,7 @@ _LONG = 12
 
 
 def local_figure(result: Identification) -> Figure:
-    """Local estimates from neighbouring force levels with standard uncertainties, against the global one (Figure 4.13)."""
+    """Local estimates with standard uncertainties against the global one (4.13), and the linear model (5.15, 5.16)."""
     shown = display_units(result)
     figure, axes = grid(len(result.parameters), 3 if len(result.parameters) != 4 else 2, 1.85)
     for ax, parameter in zip(axes, result.parameters, strict=True):
@@ -32,6 +34,8 @@ def local_figure(result: Identification) -> Figure:
             ax.plot([min(local.forces), max(local.forces)], [value, value], color=BLUE, linewidth=0.8, alpha=0.6)
             ax.plot([middle, middle], [value - half, value + half], color=BLUE, linewidth=1.2, marker="_", markersize=5)
             ax.plot([middle], [value], color=BLUE, marker="o", markersize=3.5)
+        if result.variable is not None:
+            _linear(ax, result.variable, parameter.name, [level.force for level in result.levels], unit.factor)
         _label(ax, label(parameter), unit)
     over = "" if result.reference_force is None else f" over {result.reference_force:g} N"
     figure.supxlabel(f"force{over} (N)", fontsize=8.5)
@@ -52,6 +56,19 @@ def repeats_figure(result: Identification, repeats: Repeatability) -> Figure:
         _label(ax, shown_as[name], unit)
     figure.supxlabel("combination of one run per level", fontsize=8.5)
     return figure
+
+
+def _linear(ax: Axes, model: VariableCompliance, name: str, forces: Sequence[float], factor: float) -> None:
+    """The parameter by the model whose compliances change with the force, and how far its scatter lets it be elsewhere."""
+    at = np.linspace(min(forces), max(forces), 9)
+    found = [model.at(name, force) for force in at]
+    value = np.array([one.value for one in found]) * factor
+    ax.plot(at[[0, -1]], value[[0, -1]], color=GREEN, linewidth=1.4, linestyle=(0, (1, 1.2)), zorder=3)
+    if model.by_run:
+        low, high = ax.get_ylim()
+        half = np.array([one.expanded() for one in found]) * factor
+        ax.fill_between(at, value - half, value + half, color=GREEN, alpha=0.16, linewidth=0, zorder=0)
+        ax.set_ylim(min(low, value.min()), max(high, value.max()))
 
 
 def _whole(ax: Axes, value: float, interval: Array) -> None:

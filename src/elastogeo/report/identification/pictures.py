@@ -40,10 +40,26 @@ _CAPTIONS = {
         "stays is its geometry.",
         "What compliance and geometry together, compliance alone and geometry alone do to the trace",
     ),
+    "parts": (
+        "What each parameter does to the trace at the highest force, with its peak to peak. Solid: the global estimate; "
+        "dotted: the local estimate of the highest force levels.",
+        "Trace of each parameter by itself at the highest force",
+    ),
+    "local-separation": (
+        "The same by each local estimate, at the higher of its two forces. A machine's geometry does not depend on the "
+        "force: where it seems to, the model of the compliance lacks something, or the estimates scatter.",
+        "What compliance and geometry do to the trace by each local estimate",
+    ),
+    "local-traces": (
+        "Measured deviations and what the local estimates predict of them: two lines where a level has neighbours on both "
+        "sides.",
+        "Measured traces and those predicted by local estimates",
+    ),
     "local": (
-        "Blue: local estimates with their 95 % intervals, each over the force levels it comes from. Dashed: the "
-        "global estimate.",
-        "Local estimates with their intervals against the global estimate",
+        "Blue: local estimates with their standard uncertainties, each over the force levels it comes from. Orange, dashed: "
+        "the global estimate with its 95 % interval. Green, dotted: the model whose compliances change with the force, with "
+        "the 95 % band of its scatter.",
+        "Local estimates against the global estimate and the linear model",
     ),
     "models": (
         "Error of each model: one that only follows the noise gets better at all readings and worse at those left out.",
@@ -89,9 +105,10 @@ def _drawn(name: str, result: Identification) -> Figure:
     from elastogeo.report.identification.contributions import contributions_figure
     from elastogeo.report.identification.deviations import deviations_figure
     from elastogeo.report.identification.estimates import local_figure, repeats_figure
+    from elastogeo.report.identification.parts import parts_figure
     from elastogeo.report.identification.patterns import patterns_figure
-    from elastogeo.report.identification.separation import separation_figure
-    from elastogeo.report.identification.traces import residuals_figure, traces_figure
+    from elastogeo.report.identification.separation import local_separation_figure, separation_figure
+    from elastogeo.report.identification.traces import local_traces_figure, residuals_figure, traces_figure
     from elastogeo.report.identification.uncertainties import budget_figure, models_figure
 
     if name == "traces" and in_a_nest(result):
@@ -106,9 +123,12 @@ def _drawn(name: str, result: Identification) -> Figure:
         "traces": traces_figure,
         "residuals": residuals_figure,
         "contributions": contributions_figure,
+        "parts": parts_figure,
         "patterns": patterns_figure,
         "separation": separation_figure,
+        "local-separation": local_separation_figure,
         "local": local_figure,
+        "local-traces": local_traces_figure,
         "budget": budget_figure,
     }
     return figures[name](result)

@@ -9,12 +9,13 @@ from elastogeo.identification import CONDITION_LIMIT, Consistency, Identificatio
 from elastogeo.report.head import campaign_head, files_section, origin
 from elastogeo.report.identification.budgets import budget_tables, degrees, uncertainty_table
 from elastogeo.report.identification.document import identification_json
+from elastogeo.report.identification.force_dependence import force_section
 from elastogeo.report.identification.models import SHOWN, model_said, models_words, ratio_said
 from elastogeo.report.identification.pictures import picture
+from elastogeo.report.identification.recovery import recovered_words, recovery_section
 from elastogeo.report.identification.tests import information_table, test_table, together_words
 from elastogeo.report.identification.words import (
     banner,
-    change_words,
     confounding_words,
     has_influences,
     keep_in_mind,
@@ -61,7 +62,7 @@ def identification_view(result: Identification) -> View:
         rows=document["parameters"],
         alert=(*banner(result), *(pretty(label(p)) for p in result.parameters if not p.separated)),
         tables=(*([test_table(result)] if campaign.several else []), parameter_table(result), level_table(result)),
-        notes=(*together_words(result), *stands_for(result), *log_words(campaign)),
+        notes=(*together_words(result), *stands_for(result), *recovered_words(result), *log_words(campaign)),
         sections=tuple(_sections(result)),
     )
 
@@ -145,22 +146,19 @@ def _sections(result: Identification) -> Iterator[Section]:
     yield Section(
         "Parameters",
         paragraphs=tuple(structure_words(result)),
-        pictures=(picture("contributions", result),),
+        pictures=(picture("contributions", result), *([picture("parts", result)] if one else [])),
         tables=(parameter_table(result),),
     )
-    if one and len({p.elastic for p in result.parameters if p.axis}) == 2 and all_separated(result):
+    if one and {p.elastic for p in result.parameters if p.axis} == {True, False} and all_separated(result):
         yield Section("Compliance and geometry apart", pictures=(picture("separation", result),))
     yield Section("Fit", pictures=(picture("residuals", result),) if one else (), tables=(level_table(result),))
+    if any(p.truth is not None for p in result.parameters):
+        yield recovery_section(result)
     yield _uncertainty(result)
     if result.models is not None and result.models.supported is not None:
         yield _models(result, result.models)
     if result.local:
-        paragraphs = (
-            "Each local estimate uses two neighbouring force levels only. If they drift with the force by more than "
-            "they scatter, the machine is not linear, or something that does not depend on the force counts as compliance.",
-            *change_words(result),
-        )
-        yield Section("Does anything change with the force?", tuple(map(pretty, paragraphs)), (picture("local", result),))
+        yield force_section(result)
     if result.consistency is not None:
         yield _physics(result, result.consistency)
     if result.repeats is not None:
