@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from elastogeo.identification import Diagnosis
 from elastogeo.report.faults.rows import described, distortion_interval
-from elastogeo.report.identification.contributions import Bar, kind_of, ranked
+from elastogeo.report.identification.figures.contributions import Bar, kind_of, ranked
 from elastogeo.report.text import UM
 
 _WORDS = 56

@@ -102,14 +102,14 @@ def in_a_nest(result: Identification) -> bool:
 
 
 def _drawn(name: str, result: Identification) -> Figure:
-    from elastogeo.report.identification.contributions import contributions_figure
-    from elastogeo.report.identification.deviations import deviations_figure
-    from elastogeo.report.identification.estimates import local_figure, repeats_figure
-    from elastogeo.report.identification.parts import parts_figure
-    from elastogeo.report.identification.patterns import patterns_figure
-    from elastogeo.report.identification.separation import local_separation_figure, separation_figure
-    from elastogeo.report.identification.traces import local_traces_figure, residuals_figure, traces_figure
-    from elastogeo.report.identification.uncertainties import budget_figure, models_figure
+    from elastogeo.report.identification.figures.contributions import contributions_figure
+    from elastogeo.report.identification.figures.deviations import deviations_figure
+    from elastogeo.report.identification.figures.estimates import local_figure, repeats_figure
+    from elastogeo.report.identification.figures.parts import parts_figure
+    from elastogeo.report.identification.figures.patterns import patterns_figure
+    from elastogeo.report.identification.figures.separation import local_separation_figure, separation_figure
+    from elastogeo.report.identification.figures.traces import local_traces_figure, residuals_figure, traces_figure
+    from elastogeo.report.identification.figures.uncertainties import budget_figure, models_figure
 
     if name == "traces" and in_a_nest(result):
         return deviations_figure(result)

@@ -24,7 +24,7 @@ from elastogeo.report.drawing.circles import (
     scale_for,
 )
 from elastogeo.report.drawing.style import SMALL, force_colours, panels
-from elastogeo.report.identification.traces import broken
+from elastogeo.report.identification.figures.traces import broken
 from elastogeo.report.numbers import significant
 from elastogeo.report.text import UM, all_separated
 

@@ -14,8 +14,8 @@ from elastogeo.identification import Identification
 from elastogeo.machine import Array
 from elastogeo.report.drawing.circles import is_angular, pose_axis
 from elastogeo.report.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, SMALL, panels
-from elastogeo.report.identification.separation import responses_by_force
-from elastogeo.report.identification.traces import broken
+from elastogeo.report.identification.figures.separation import responses_by_force
+from elastogeo.report.identification.figures.traces import broken
 from elastogeo.report.numbers import pretty, significant
 from elastogeo.report.text import UM, all_separated, label
 

@@ -1,0 +1,1 @@
+"""The figures of an identification: one file for each kind of drawing."""
