@@ -11,7 +11,7 @@ import pytest
 
 from elastogeo.formats import example_test, read_test
 from elastogeo.identification import identify
-from elastogeo.observe import Campaign, Question
+from elastogeo.observe import Question
 from elastogeo.report import html_page, view_of
 from elastogeo.report.drawing.style import GREEN, GREY, INK
 from elastogeo.sources import simulate
@@ -155,8 +155,8 @@ def test_what_was_simulated_beside_the_model_is_named(separated) -> None:
     assert re.search(r"\d+ of 15 intervals of 95 % hold the true value", words)
     assert "not in the model" not in words
     runs = tuple(replace(run, truth={**run.truth, "E_XX3": 1e-9, "E_YY3": 0.0}) for run in separated.test.runs)
-    campaign = Campaign("other", {"other": replace(separated.test, runs=runs)})
-    other = replace(separated, campaign=campaign)
+    test = replace(separated.test, runs=runs)
+    other = replace(separated, campaign=replace(separated.campaign, tests=dict.fromkeys(separated.campaign.tests, test)))
     assert "Simulated, but not in the model: E_XX3." in " ".join(view_of(other).notes)
 
 

@@ -27,10 +27,11 @@ rank, columns : how many combinations are determined, of how many parameters
 condition_raw, condition_scaled : of the retained columns as they are, and scaled to unit length
 singular_values : of the scaled retained columns, greatest first
 rmse_um : over all readings
-levels : [{test, force_N, readings, rmse_um, fitness_percent, elastic_um, geometric_um, linear, local}], forces and readings
-    less the reference's if one was taken off; `elastic_um` and `geometric_um` are [least, greatest] deviation that
-    compliance, and that geometry without the set-up, cause; null unless every parameter is separated. `linear` and `local` are null,
-    or {rmse_um, fitness_percent} of the linear model and of the local estimates that the level is part of (Table 5.9)
+levels : [{test, force_N, readings, rmse_um, fitness_percent, elastic_um, geometric_um, linear, local}], forces and
+    readings less the reference's if one was taken off; `elastic_um` and `geometric_um` are [least, greatest] deviation
+    that compliance, and that geometry without the set-up, cause; null unless every parameter is separated. `linear` and
+    `local` are null, or {rmse_um, fitness_percent} of the linear model and of the local estimates that the level is part
+    of (Table 5.9)
 linear : null, or {compliances, by_run, rmse_um, values: [{name, value, standard_uncertainty, degrees_of_freedom}]}, the
     model in which every compliance is `C0 + C1 F` (Eq. 5.39): `C_XXX` at no force, `CF1_XXX` what it gains per newton;
     the uncertainties hold the scatter alone and are null where the runs are too few
