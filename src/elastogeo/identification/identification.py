@@ -26,6 +26,7 @@ from elastogeo.identification.fit import Fit, Harmonic, fit_of, rmse, strongest_
 from elastogeo.identification.influences import Effect
 from elastogeo.identification.local import adjacent_estimates, change_between_levels, of_repeats
 from elastogeo.identification.model_choice.choice import compare_models
+from elastogeo.identification.model_choice.missing_geometry import with_missing_geometry
 from elastogeo.identification.model_choice.variable_compliance import VariableCompliance, variable_compliance
 from elastogeo.identification.physics import (
     NOT_TESTED,
@@ -52,6 +53,7 @@ from elastogeo.identification.verdict import (
     conditioned,
     first_order_enough,
     forces_distinct,
+    free_of_assumptions,
     free_of_outliers,
     geometry_constant,
     geometry_modelled,
@@ -109,7 +111,8 @@ def identify_observed(one: Askable, observations: Sequence[Observations] | None 
     if campaign.question.robust:
         systems = downweighted(systems, found.retained)
     known = effects_of(campaign, systems)
-    return _assessed(_identified(campaign, systems, found, known), systems, known)
+    result = replace(_identified(campaign, systems, found, known), corrected=_corrected(campaign, systems, found))
+    return _assessed(result, systems, known)
 
 
 def identified(one: MachineTest | Identification, **asked: Unpack[Asked]) -> Identification:
@@ -160,6 +163,7 @@ def _identified(campaign: Campaign, systems: Systems, found: Confounding, known:
         responses=_responses(campaign, systems, solution),
         variable=variable,
         set_up={run.name: _set_up(run, solution) for run in systems.runs if run.set_up_names},
+        corrected={},
         rmse=_rmse([trace for trace, run in zip(traces, systems.runs, strict=True) if not run.angular] or traces),
         verdict=(),
     )
@@ -177,7 +181,7 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
     result, drawn = _held_against_draws(result, systems, known)
     physics = None
     if elastic:
-        result, physics = _held_against_physics(result)
+        result, physics = _held_against_physics(result, systems)
     around = [trace for trace in result.traces if trace.test in circles]
     harmonics = {t.run: strongest_harmonic(t.measured - t.predicted, t.pose, len(around)) for t in around}
     shared = _shared(systems, circles, result.solution.labels) if result.by_run else None
@@ -199,6 +203,7 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
         residuals_unstructured(harmonics, shared, result.rmse) if around else None,
         uncertainty_by_run(result.by_run, runs, reference, needed),
         influences_stated(stated, reference),
+        free_of_assumptions(result.budget),
         drawn,
         free_of_outliers([run.weights for run in systems.runs if run.weights is not None]) if robust else None,
         above_resolution({p.name: abs(p.peak_to_peak) for p in parameters}, _resolution(campaign)),
@@ -248,16 +253,22 @@ def _goes_around(systems: Systems) -> bool:
     return any(np.ptp(run.observations.commands, axis=0).any() for run in systems.runs)
 
 
-def _held_against_physics(result: Identification) -> tuple[Identification, Check]:
+def _held_against_physics(result: Identification, systems: Systems) -> tuple[Identification, Check]:
     """The result with what physics says of its compliances; a check that could not be made says so."""
     try:
         found = consistency_of(result)
     except (InputError, UnsupportedError) as error:
         return result, Check(PHYSICALLY_CONSISTENT, None, {"state": NOT_TESTED, "why": str(error)})
     known = replace(result.solution, covariance=result.budget.covariance)
-    return replace(result, consistency=found), physically_consistent(
-        found, sources_of(result.campaign), result.confounding, known
-    )
+    check = physically_consistent(found, sources_of(result.campaign), result.confounding, known)
+    result = replace(result, consistency=found)
+    if check.passed is not False or result.models is None:
+        return result, check
+    geometry = with_missing_geometry(result.campaign.only, systems, result.models)
+    if geometry is None:
+        return result, check
+    facts = {**check.facts, "with_geometry": geometry.facts_of(check.facts["negative"])}
+    return replace(result, missing_geometry=geometry), replace(check, facts=facts)
 
 
 def consistency_of(identification: Identification) -> Consistency:
@@ -312,6 +323,16 @@ def _information(shares: Shares, tests: Sequence[str]) -> dict[str, dict[str, fl
 
 def _rmse(traces: Sequence[Trace]) -> float:
     return rmse(np.concatenate([t.predicted for t in traces]), np.concatenate([t.measured for t in traces]))
+
+
+def _corrected(campaign: Campaign, systems: Systems, found: Confounding) -> dict[str, float]:
+    """How much greater each parameter would be with what was subtracted from the readings left in; empty if nothing was."""
+    if campaign.several or not any(run.observations.correction.any() for run in systems.runs):
+        return {}
+    test = campaign.only
+    left_in = systems_of(test, [run.with_reading(run.correction) for run in test.observations()])
+    values = solve(merged(left_in.runs), found.retained).values
+    return dict(zip(found.retained, map(float, values), strict=True))
 
 
 def _set_up(run: RunSystem, solution: Solution) -> dict[str, float]:

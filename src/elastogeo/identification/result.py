@@ -13,6 +13,7 @@ from elastogeo.identification.campaigns.parts import TestPart
 from elastogeo.identification.change import Change
 from elastogeo.identification.check import Check
 from elastogeo.identification.fit import Fit
+from elastogeo.identification.model_choice.missing_geometry import MissingGeometry
 from elastogeo.identification.model_choice.result import ModelChoice
 from elastogeo.identification.model_choice.variable_compliance import VariableCompliance
 from elastogeo.identification.physics import Consistency
@@ -258,6 +259,9 @@ class Identification(Result):
         The model whose compliances change with the force, where the runs determine it.
     set_up : dict of str to dict of str to float [mm]
         Of each run its own set-up: where its circle really lies. Empty where it is one for all runs, or not in the model.
+    corrected : dict of str to float
+        How much greater each parameter would be if what was subtracted from the readings (`Observations.correction`: the
+        deflection of the set-up, Eq. 5.38) were left in them; empty if nothing was.
     rmse : float [mm]
         Over all readings; of several tests over those that read lengths, if any do.
     agreement : Agreement or None
@@ -266,6 +270,8 @@ class Identification(Result):
         Models of the compliance against the force; None with a reference level, fewer than three levels, or no compliance.
     consistency : Consistency or None
         Whether the compliances agree with physics; None if none was asked for, or they are not told from geometry.
+    missing_geometry : MissingGeometry or None
+        The answer with geometry that the data support besides; None unless physics is contradicted and there is such.
     verdict : tuple of Check
     """
 
@@ -288,6 +294,7 @@ class Identification(Result):
     repeats: Repeatability | None
     patterns: tuple[Pattern, ...]
     set_up: dict[str, dict[str, float]]
+    corrected: dict[str, float]
     rmse: float
     verdict: tuple[Check, ...]
     agreement: Agreement | None = None
@@ -295,6 +302,7 @@ class Identification(Result):
     consistency: Consistency | None = None
     responses: tuple[Response, ...] = ()
     variable: VariableCompliance | None = None
+    missing_geometry: MissingGeometry | None = None
 
     @property
     def test(self) -> MachineTest:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from elastogeo.estimate import HUBER, Confounding
-from elastogeo.identification.budget import COVERAGE, TAIL, Agreement
+from elastogeo.identification.budget import COVERAGE, TAIL, Agreement, Budget
 from elastogeo.identification.change import SIGNIFICANT, Change
 from elastogeo.identification.check import Check
 from elastogeo.identification.fit import Harmonic
@@ -16,6 +16,7 @@ from elastogeo.identification.levels import ForceLevels
 from elastogeo.identification.model_choice.result import ModelChoice
 from elastogeo.identification.result import Parameter
 from elastogeo.machine import Array
+from elastogeo.observe import ASSUMED
 from elastogeo.sources import Source
 
 SEPARATED = 5.0
@@ -24,6 +25,9 @@ With less, the forces alone make a compliance uncertain by a fifth."""
 
 OUTLYING = 6.0
 """Standard deviations (robust) from which a reading is an outlier: normal noise never gets there."""
+
+DEPENDS = 0.1
+"""Share of its standard uncertainty by which an assumption about the readings moves a parameter that depends on it."""
 
 CONDITION_LIMIT = 30.0
 """Scaled condition number above which estimates are strongly coupled (Belsley, Kuh and Welsch, 1980)."""
@@ -69,6 +73,19 @@ def geometry_modelled(sources: Sequence[Source], reference: bool, around: bool) 
 def influences_stated(labels: Sequence[str], reference: bool) -> Check:
     """Whether systematic influences are in the uncertainties; not tested where there is no uncertainty."""
     return Check("systematic influences stated", None if reference else bool(labels), {"stated": tuple(labels)})
+
+
+def free_of_assumptions(budget: Budget) -> Check | None:
+    """Whether the values are independent of what was assumed of the readings; no check where nothing was."""
+    assumed = sorted({line.label for lines in budget.lines for line in lines if line.label.startswith(ASSUMED)})
+    if not assumed:
+        return None
+    depends = {}
+    for name, lines, u in zip(budget.labels, budget.lines, budget.standard_uncertainty, strict=True):
+        share = float(np.linalg.norm([line.contribution for line in lines if line.label in assumed])) / float(u)
+        if share > DEPENDS:
+            depends[name] = share
+    return Check("free of assumptions", not depends, {"assumed": tuple(assumed), "depends": depends})
 
 
 def separated(parameters: Sequence[Parameter]) -> Check:
@@ -118,6 +135,12 @@ def model_adequate(models: ModelChoice) -> Check:
             "stands_for": best.stands_for,
             "places": models.places,
             "alike": tuple(name for name in models.alike if name != best.name),
+            "added": {name: models.of(name).added for name in dict.fromkeys((best.name, *models.alike))},
+            "owners": {
+                label: owners
+                for name in (best.name, *models.alike)
+                for label, owners in zip(models.of(name).added, models.of(name).stands_for, strict=True)
+            },
             "explained": models.explained,
             "exponent": best.exponent,
             "left_out": best.left_out_level,

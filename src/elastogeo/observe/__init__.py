@@ -6,6 +6,7 @@ from elastogeo.observe.bars.unloaded import BallBar
 from elastogeo.observe.campaign import Askable, Campaign, campaign_of, with_questions
 from elastogeo.observe.circle import PLANES, Circle, plane_directions
 from elastogeo.observe.contradictions import check_runs, turning
+from elastogeo.observe.covariance import ASSUMED
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, ForceInfluence, force_from_pressure
 from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
@@ -25,6 +26,7 @@ from elastogeo.observe.static_loads.static_force import StaticForce
 from elastogeo.observe.template import Template
 
 __all__ = [
+    "ASSUMED",
     "PLANES",
     "THESIS_CALIBRATION",
     "About",

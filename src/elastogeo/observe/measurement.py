@@ -10,6 +10,7 @@ from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
 from elastogeo.machine import Force, Forces, Length, Machine
 from elastogeo.observe.about import About
+from elastogeo.observe.covariance import with_covariance
 from elastogeo.observe.instruments import instrument_of
 from elastogeo.observe.observations import Observations
 from elastogeo.observe.run import Run
@@ -98,7 +99,9 @@ class MachineTest(ByValue):
     influences : tuple of KnownInfluence
         Systematic influences on the readings.
     simulated : str
-        From what the readings are simulated, in words; empty if they were measured.
+        From what the readings are simulated, in words; empty if they were not.
+    reconstructed : str
+        From what the readings are reconstructed, in words; empty if they were not.
     about : About
         Who, when, with what.
     """
@@ -111,6 +114,7 @@ class MachineTest(ByValue):
     resolution: float | None = None
     influences: tuple[KnownInfluence, ...] = ()
     simulated: str = ""
+    reconstructed: str = ""
     about: About = field(default_factory=About)
 
     def __post_init__(self) -> None:
@@ -144,4 +148,4 @@ class MachineTest(ByValue):
 
     def observations(self) -> tuple[Observations, ...]:
         """The observations of every run that holds readings, in order."""
-        return self.setup.observe_all(self.machine, self.runs)
+        return with_covariance(self.setup.observe_all(self.machine, self.runs), self.runs)

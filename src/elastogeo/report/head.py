@@ -75,18 +75,25 @@ def files_section(one: MachineTest | Campaign) -> tuple[Section, ...]:
 
 
 def origin(one: MachineTest | Campaign) -> str:
-    """Whether the readings, or which of them, are simulated, and from what; empty if all were measured."""
+    """Whether the readings, or which of them, are simulated or reconstructed, and from what; empty if all were measured."""
     campaign = campaign_of(one)
     if campaign.several:
-        simulated = [name for name, test in campaign.tests.items() if test.simulated]
-        some = f" ({', '.join(simulated)})" if 0 < len(simulated) < len(campaign.tests) else ""
-        return f"Simulated{some}: {campaign.simulated}" if simulated else ""
+        return "; ".join(filter(None, (_origin_among(campaign, kind) for kind in ("simulated", "reconstructed"))))
     test = campaign.only
+    if test.reconstructed:
+        return f"Reconstructed: {test.reconstructed}"
     if not test.simulated:
         return ""
     marked = sum(bool(run.simulated) for run in test.runs)
     some = f" ({marked} of {len(test.runs)} runs)" if 0 < marked < len(test.runs) else ""
     return f"Simulated{some}: {test.simulated}"
+
+
+def _origin_among(campaign: Campaign, kind: str) -> str:
+    """Which of several tests are `simulated` or `reconstructed`, and from what; empty if none is."""
+    told = {name: getattr(test, kind) for name, test in campaign.tests.items() if getattr(test, kind)}
+    some = f" ({', '.join(told)})" if 0 < len(told) < len(campaign.tests) else ""
+    return f"{kind.capitalize()}{some}: {'; '.join(dict.fromkeys(told.values()))}" if told else ""
 
 
 def _path(test: MachineTest) -> str:

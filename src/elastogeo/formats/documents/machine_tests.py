@@ -94,6 +94,7 @@ class TestDocument:
     influences: tuple[KnownInfluence, ...] = ()
     resolution: Length | None = None
     simulated: str = ""
+    reconstructed: str = ""
     columns: Mapping[str, str] = field(default_factory=dict)
     channels: tuple[ChannelUse, ...] = ()
     clock: Clock = field(default_factory=Clock)
@@ -146,6 +147,7 @@ def read_test(
         resolution=document.resolution,
         influences=document.influences,
         simulated=document.simulated or ", ".join(dict.fromkeys(run.simulated for run in runs if run.simulated)),
+        reconstructed=document.reconstructed,
         about=document.about,
     )
 

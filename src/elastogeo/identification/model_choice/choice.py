@@ -1,7 +1,9 @@
 """Which model the data support: the one as asked, unless a column is surely missing; then the simplest that lacks none.
 
 Every model that is not refuted is named with it; those that hold another of them are not. A model that is true is refuted in
-one of a hundred tests, so what is named together holds it, once something was found at all.
+one of a hundred tests, so what is named together holds it, once something was found at all. A simpler one that predicts
+left-out levels as well is named too: of few runs no more can be asked. One that predicts them worse than the model as asked
+is none that data support, whatever it leaves.
 """
 
 from __future__ import annotations
@@ -27,8 +29,11 @@ MISSING = 0.05
 REFUTED = 0.01
 """Probability of not naming a richer model that is true, once one is named."""
 
+AS_WELL = 1.05
+"""Ratio of left-out errors up to which the simpler model predicts as well."""
+
 BASES = 3
-"""How many of the best models are tried together with others if none is sufficient by itself."""
+"""How many of the best models, and the best of each place, are tried together with others if none suffices by itself."""
 
 
 def compare_models(machine: Machine, systems: Systems, retained: Sequence[str], angular: bool = True) -> ModelChoice:
@@ -69,7 +74,7 @@ def compare_models(machine: Machine, systems: Systems, retained: Sequence[str], 
     still = off_level(chosen.shapes, [*chosen.model, *best.added], chosen.levels)
     if off is not None and (still is not None or not enough) and _follows_without(chosen, off):
         return found([asked, *richer], CONSTANT, (CONSTANT,), off)
-    return found([asked, *richer], best.name, _alike(richer, best), still)
+    return found([asked, *richer], best.name, _alike(richer, best, asked), still)
 
 
 def _follows_without(chosen: Comparison, off: OffLevel) -> bool:
@@ -83,17 +88,28 @@ def _richer(chosen: Comparison, asked: Candidate, first: Evidence) -> list[Candi
     alone = [family for family in families(chosen, first) if family.promising(first)]
     found = [(family, _tried(chosen, family, asked)) for family in alone]
     if not any(candidate.sufficient for _, candidate in found):
-        best = [family for family, _ in sorted(found, key=lambda pair: _left_out(pair[1]))[:BASES]]
-        mixed = [_tried(chosen, family, asked) for family in mixtures(best, alone)]
+        mixed = [_tried(chosen, family, asked) for family in mixtures(_bases(found), alone)]
     else:
         mixed = []
-    models = [*(candidate for _, candidate in found), *(candidate for candidate in mixed if candidate.p_value >= REFUTED)]
+    models = [
+        replace(candidate, sufficient=candidate.sufficient and _left_out(candidate) <= _left_out(asked))
+        for candidate in (*(candidate for _, candidate in found), *mixed)
+    ]
     least = min((candidate for candidate in models if candidate.sufficient), key=_left_out, default=None)
     if least is not None:
         models = [
             replace(candidate, sufficient=candidate.sufficient and not _worse(candidate, least)) for candidate in models
         ]
-    return sorted(models, key=_rank)
+    best = min(models, key=_rank, default=asked)
+    by_itself = {candidate.name for _, candidate in found}
+    return sorted((one for one in models if one.name in by_itself or _close(one, best, asked)), key=_rank)
+
+
+def _bases(found: Sequence[tuple[Family, Candidate]]) -> list[Family]:
+    """The models that are tried together with others: what is missing may live in two places."""
+    ordered = sorted(found, key=lambda pair: _left_out(pair[1]))
+    of_place = {place: family for family, candidate in reversed(ordered) for place in candidate.places}
+    return list(dict.fromkeys((*(family for family, _ in ordered[:BASES]), *of_place.values())))
 
 
 def _tried(chosen: Comparison, family: Family, asked: Candidate) -> Candidate:
@@ -101,9 +117,16 @@ def _tried(chosen: Comparison, family: Family, asked: Candidate) -> Candidate:
     return fit(chosen, family, p_value, p_value >= MISSING, asked)
 
 
-def _alike(richer: Sequence[Candidate], best: Candidate) -> tuple[str, ...]:
-    """The models that cannot be distinguished from the best: not refuted, and holding none that is as good with less."""
-    close = [candidate for candidate in richer if candidate.p_value >= REFUTED and not _worse(candidate, best)]
+def _close(one: Candidate, best: Candidate, asked: Candidate) -> bool:
+    """Whether a model is not refuted and predicts no worse than as asked, or predicts as well as the best with less."""
+    if one.p_value >= REFUTED:
+        return _left_out(one) <= _left_out(asked) and not _worse(one, best)
+    return one.parameters < best.parameters and _left_out(one) <= AS_WELL * _left_out(best) < _left_out(asked)
+
+
+def _alike(richer: Sequence[Candidate], best: Candidate, asked: Candidate) -> tuple[str, ...]:
+    """The models that cannot be distinguished from the best, holding none that is as good with less."""
+    close = [candidate for candidate in richer if _close(candidate, best, asked)]
     kept: list[Candidate] = []
     for candidate in sorted(close, key=_rank):
         if not any(held(other.added) <= held(candidate.added) for other in kept):

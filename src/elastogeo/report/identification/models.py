@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from elastogeo.identification import Candidate, ModelChoice
 from elastogeo.report.text import UM
@@ -22,9 +22,19 @@ _SAID = {
     "set-up bend": "a compliance of the set-up that changes with the force",
 }
 SHOWN = 8
-"""How many models figures and tables show: the one as asked, and those that come nearest."""
+"""How many models figures and tables show at least: the one as asked, those that are named with what each is made of, and
+those that come nearest."""
 
 _ORDER = ", second order"
+
+
+def shown_models(models: ModelChoice) -> list[Candidate]:
+    """The models that figures and tables show, simpler ones first."""
+    named = {"constant", models.supported, *models.alike}
+    named |= {part for name in named if name for part in name.split(" and ")}
+    others = [model.name for model in models.candidates if model.name not in named]
+    named |= set(others[: max(SHOWN - len(named), 0)])
+    return sorted((model for model in models.candidates if model.name in named), key=lambda model: model.parameters)
 
 
 def model_said(name: str) -> str:
@@ -53,6 +63,28 @@ def supported_said(name: str, stands_for: Sequence[Sequence[str]], exponent: flo
     many = len(stands_for) > 2
     words = model_said(name) if many or not stands_for else owners_said(stands_for)
     return words if exponent is None else f"{words} (exponent {exponent:.2f})"
+
+
+def together_said(added: Mapping[str, Sequence[str]], owners: Mapping[str, Sequence[str]]) -> str:
+    """Models that cannot be distinguished: what they share, and what each has besides; empty where they share nothing.
+
+    Parameters
+    ----------
+    added : mapping of str to sequence of str
+        Of each model, by name, the parameters that it has besides.
+    owners : mapping of str to sequence of str
+        Of each of these, what coincides with it.
+    """
+    common = [name for name in next(iter(added.values())) if all(name in of for of in added.values())]
+    apart = [" and ".join(part for part in name.split(" and ") if part not in common) for name in added]
+    if not common or not all(apart):
+        return ""
+    shared = owners_said([owners[name] for name in common])
+    return f"{shared}; and one of these: {'; '.join(_own_said(name, owners) for name in apart)}"
+
+
+def _own_said(name: str, owners: Mapping[str, Sequence[str]]) -> str:
+    return owners_said([owners[name]]) if name in owners else model_said(name)
 
 
 def left_out_said(error: float | None) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from elastogeo.report.identification.models import left_out_said, model_said, supported_said
+from elastogeo.report.identification.models import left_out_said, model_said, owners_said, supported_said, together_said
 from elastogeo.report.numbers import display_unit, probability, significant
 from elastogeo.report.sentences import Facts, says
 from elastogeo.report.text import UM
@@ -145,6 +145,16 @@ def drawn_interval(drawn: Facts) -> str:
     return f"{significant(drawn['low'] * shown.factor, 4)} to {significant(drawn['high'] * shown.factor, 4)} {shown.name}"
 
 
+@says("free of assumptions")
+def free_of_assumptions(facts: Facts, passed: bool | None) -> str:
+    """Which values depend on what was assumed of the readings."""
+    what = " and ".join(label.removeprefix("assumed ") for label in facts["assumed"])
+    if passed:
+        return f"Something of the readings is assumed, not known ({what}); no value depends on it."
+    named = ", ".join(facts["depends"])
+    return f"{named} depend on what is assumed, not known, of the readings ({what})."
+
+
 @says("free of outliers")
 def free_of_outliers(facts: Facts, passed: bool | None) -> str:
     """How many readings count less, and how many are outliers."""
@@ -216,9 +226,17 @@ def physically_consistent(facts: Facts, passed: bool | None) -> str:
     named = "".join(f" {_negative(name, found)}" for name, found in facts["negative"].items())
     named = named or f" {facts['farthest']} is larger than the compliances of the same joints along one load allow."
     return (
-        f"The data contradict physics (p {p}): the estimate is {outside}.{named} Either the model lacks something that the "
-        f"readings hold, or the uncertainty misses an influence. Do not use the values as compliances of joints."
+        f"The data contradict physics (p {p}): the estimate is {outside}.{named} {_why_contradicted(facts)} Do not use the "
+        f"values as compliances of joints."
     )
+
+
+def _why_contradicted(facts: Facts) -> str:
+    geometry = facts.get("with_geometry")
+    if not geometry or geometry["state"] == "contradicted":
+        return "Either the model lacks something that the readings hold, or the uncertainty misses an influence."
+    told = "".join(f" {_negative(name, found)}" for name, found in geometry["values"].items())
+    return f"With {owners_said(geometry['owners'])} in the model they do not:{told}"
 
 
 def _units(distance: float) -> str:
@@ -287,6 +305,12 @@ def model_adequate(facts: Facts, passed: bool | None) -> str:
             f"The model lacks something (p = {facts['p_value']:.2g}), and no model that was tried explains it; "
             f"{model_said(facts['supported'])} comes nearest, and predicts left-out force levels to {best}, the model as "
             f"asked to {asked}."
+        )
+    together = together_said(facts["added"], facts["owners"]) if facts["alike"] else ""
+    if together:
+        return (
+            f"The data support {together}. This test cannot distinguish them. The first predicts left-out force levels to "
+            f"{best}, the model as asked to {asked}."
         )
     model = supported_said(facts["supported"], facts["stands_for"], facts["exponent"])
     words = f"The data support {model}: it predicts left-out force levels to {best}, the model as asked to {asked}."

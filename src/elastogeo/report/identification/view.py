@@ -10,7 +10,7 @@ from elastogeo.report.head import campaign_head, files_section, origin
 from elastogeo.report.identification.budgets import budget_tables, degrees, uncertainty_table
 from elastogeo.report.identification.document import identification_json
 from elastogeo.report.identification.force_dependence import force_section
-from elastogeo.report.identification.models import SHOWN, model_said, models_words, ratio_said
+from elastogeo.report.identification.models import model_said, models_words, ratio_said, shown_models
 from elastogeo.report.identification.pictures import picture
 from elastogeo.report.identification.recovery import recovered_words, recovery_section
 from elastogeo.report.identification.tests import information_table, test_table, together_words
@@ -184,7 +184,7 @@ def _uncertainty(result: Identification) -> Section:
 
 
 def _models(result: Identification, models: ModelChoice) -> Section:
-    shown = models.candidates[:SHOWN]
+    shown = shown_models(models)
     rows = [
         (
             model_said(model.name) if model.exponent is None else f"{model_said(model.name)}, exponent {model.exponent:.2f}",

@@ -10,12 +10,15 @@ from elastogeo.identification import SCATTER, SIGNIFICANT, Identification, Param
 from elastogeo.observe import Campaign
 from elastogeo.report.numbers import micro, probability, significant
 from elastogeo.report.sentences import sentence_of
-from elastogeo.report.text import all_separated
+from elastogeo.report.text import all_separated, display_units
 
 REPEATABILITY = (
     "Repeatability is not uncertainty: it says how runs of one set-up scatter, not how far all of them are from the truth."
 )
 _ON_AXIS = re.compile(r"C_([XYZABC])\1[A-Z]")
+_COUNTS = 1e-3
+"""Share of a parameter from which what was subtracted counts."""
+
 _GAIN = re.compile(r"E_([XYZ])(?:\1)1")
 
 
@@ -121,7 +124,7 @@ def keep_in_mind(result: Identification) -> list[str]:
     words = [held, REPEATABILITY]
     if any(len(p.stands_for) > 1 and p.elastic and p.separated for p in result.parameters):
         words.append("Compliances here are equivalent ones: each is the sum of what it stands for, not of one joint alone.")
-    words += structure_words(result)
+    words += structure_words(result) + corrected_words(result)
     if result.consistency is None:
         words += [_negative(p) for p in result.parameters if _impossible(p)]
     gains = [name for name in named if _GAIN.fullmatch(name)]
@@ -157,6 +160,19 @@ def structure_words(result: Identification) -> list[str]:
             "The residuals have a structure that the runs share (see the verdict): it shifts the values and is not in U."
         ]
     return ["The true uncertainty is larger than U: the residuals have structure (see the verdict), which U does not cover."]
+
+
+def corrected_words(result: Identification) -> list[str]:
+    """What the subtracted deflection of the set-up would have been taken for; nothing if none was subtracted."""
+    units = display_units(result)
+    said = [
+        f"{p.name} {significant(result.corrected[p.name] * units[p.name].factor)} {units[p.name].name}"
+        for p in result.parameters
+        if abs(result.corrected.get(p.name, 0.0)) > _COUNTS * abs(p.value)
+    ]
+    if not said:
+        return []
+    return [f"The deflection of the set-up is subtracted from the readings; left in, it would add {listed(said)}."]
 
 
 def assumptions(campaign: Campaign) -> list[str]:

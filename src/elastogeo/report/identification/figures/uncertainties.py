@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from elastogeo.identification import Identification, ModelChoice
 from elastogeo.report.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, new_figure
-from elastogeo.report.identification.models import SHOWN, model_said
+from elastogeo.report.identification.models import model_said, shown_models
 from elastogeo.report.text import UM, labels
 
 _COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7", "#e69f00", "#56b4e9", "#8c6bb1")
@@ -40,7 +40,7 @@ def budget_figure(result: Identification) -> Figure:
 
 def models_figure(models: ModelChoice) -> Figure:
     """Error of each model: over all readings, at left-out runs, at left-out force levels."""
-    shown = models.candidates[:SHOWN][::-1]
+    shown = shown_models(models)[::-1]
     figure = new_figure(1.05 + 0.33 * len(shown))
     ax = figure.subplots()
     for k, model in enumerate(shown):
