@@ -1,12 +1,12 @@
 """A probe across one joint tells what no test between tool and workpiece can: ranks of `reference/planning.md`.
 
-Those figures were derived twice, by another program and by exact elimination; here the tests are stacked as they would be
+Those figures were derived twice, by another program and by exact elimination; here the tests are campaigns as they would be
 made: forces along X, Y, Z at random places of the travel, three probes at the tool, then a probe across carriage X.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -15,19 +15,13 @@ import numpy as np
 import pytest
 
 from elastogeo.errors import InputError, MachineError
-from elastogeo.estimate import Confounding, confounding, factor_blocks
+from elastogeo.estimate import Confounding
 from elastogeo.formats import find_machine
-from elastogeo.identification import identify
+from elastogeo.identification import Explanation, explain, identify
 from elastogeo.machine import Array, Machine
-from elastogeo.observe import Imperfection, JointProbe, MachineTest, Observations, Question, Run, Sensor, SensorFrame, Setup
-from elastogeo.sources import (
-    column_ceilings,
-    design_rows,
-    exact_response,
-    linear_response,
-    select_sources,
-    simulate,
-)
+from elastogeo.observe import Imperfection, JointProbe, MachineTest, Question, Run, Sensor, SensorFrame, Setup
+from elastogeo.report import view_of
+from elastogeo.sources import exact_response, linear_response, select_sources, simulate
 
 PLACES = 40
 FORCE = 500.0
@@ -40,7 +34,7 @@ def hermle() -> Machine:
     return find_machine("hermle_c50", Path())
 
 
-def static_test(setup: Setup, seed: int) -> list[Observations]:
+def static_test(setup: Setup, seed: int) -> MachineTest:
     """A run at each of some random places: forces along X, Y and Z."""
     random = np.random.default_rng(seed)
     runs = []
@@ -48,64 +42,66 @@ def static_test(setup: Setup, seed: int) -> list[Observations]:
         at = {axis.lower(): np.full(3, random.uniform(*TRAVEL[axis])) for axis in TRAVEL}
         forces = {f"force_{axis}": FORCE * row for axis, row in zip("xyz", AXES, strict=True)}
         readings = {name: np.zeros(3) for name in setup.quantities if name.startswith("displacement")}
-        runs.append(setup.observe(hermle(), Run(f"{place}", {**at, **forces, **readings})))
-    return runs
+        runs.append(Run(f"{place}", {**at, **forces, **readings}))
+    return MachineTest("static", hermle(), setup, tuple(runs))
 
 
 @cache
-def at_the_tool() -> tuple[Observations, ...]:
-    return tuple(static_test(SensorFrame(tuple(Sensor((0, 0, 0), tuple(row)) for row in AXES)), 1))
+def at_the_tool() -> MachineTest:
+    return static_test(SensorFrame(tuple(Sensor((0, 0, 0), tuple(row)) for row in AXES)), 1)
 
 
-def across_x(directions: Sequence[Array], point: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> list[Observations]:
-    return [run for row in directions for run in static_test(JointProbe(("X",), tuple(row), point), 2)]
+def across_x(direction: Array, point: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> MachineTest:
+    return static_test(JointProbe(("X",), tuple(direction), point), 2)
 
 
-def found(observations: Sequence[Observations]) -> Confounding:
-    sources = select_sources(hermle(), ["C_*"])
-    factor = factor_blocks([s.name for s in sources], (design_rows(sources, hermle(), run) for run in observations))
-    ceilings = np.linalg.norm([column_ceilings(sources, hermle(), run) for run in observations], axis=0)
-    return confounding(factor, None, ceilings)
+def found(tests: Mapping[str, MachineTest]) -> Confounding:
+    return explain(tests, parameters=["C_*"]).confounding
 
 
 @cache
-def with_a_probe() -> Confounding:
-    return found([*at_the_tool(), *across_x(AXES[:1])])
+def with_a_probe() -> Explanation:
+    return explain({"tool": at_the_tool(), "x": across_x(AXES[0])}, parameters=["C_*"])
 
 
 def test_static_forces_and_probes_at_the_tool_see_91_of_180() -> None:
-    tool = found(at_the_tool())
+    explained = explain(at_the_tool(), parameters=["C_*"])
+    tool = explained.confounding
     assert (len(tool.labels), tool.rank) == (180, 91)
     (group,) = [group for group in tool.groups if "C_XXX" in group]
     assert {"C_XXX", "C_XXY", "C_XXZ"} <= set(group)
+    (said,) = [note for note in view_of(explained).notes if note.startswith("No test between tool and workpiece")]
+    assert "distinguishes C_XXY, C_XXX and C_XXZ, nor 8 more such sums: no rotary axis lies between these joints" in said
 
 
 def test_a_probe_across_x_at_its_origin_makes_the_compliance_of_x_exact() -> None:
     """96: a column for each of five loads of X; with one tool on the spindle's axis none of them is a moment about z."""
-    result = with_a_probe()
+    result = with_a_probe().confounding
     assert result.rank == 96
     assert result.stands_for("C_XXX") == {"C_XXX": 1.0}
     (rest,) = [label for label in result.retained if "C_XXY" in result.stands_for(label)]
     assert {"C_XXY", "C_XXZ", "C_XXA"} <= set(result.stands_for(rest))
     assert "C_XXX" not in result.stands_for(rest)
+    (said,) = [note for note in view_of(with_a_probe()).notes if note.startswith("No test between tool and workpiece")]
+    assert "distinguishes C_XXY and C_XXZ, nor 8 more such sums" in said
 
 
 def test_three_directions_see_106() -> None:
-    assert found([*at_the_tool(), *across_x(AXES)]).rank == 106
+    assert found({"tool": at_the_tool(), **{axis: across_x(row) for axis, row in zip("xyz", AXES, strict=True)}}).rank == 106
 
 
 def test_at_another_point_the_rotations_of_x_enter() -> None:
-    result = found([*at_the_tool(), *across_x(AXES[:1], (0.0, 70.0, 50.0))])
+    result = found({"tool": at_the_tool(), "x": across_x(AXES[0], (0.0, 70.0, 50.0))})
     assert result.rank > 91
-    assert "C_XXY" in result.stands_for("C_XXX")
+    assert result.stands_for("C_XXX")["C_CXX"] == pytest.approx(-70.0)  # about z, at y = 70 mm
 
 
 def test_six_readings_across_x_see_its_whole_twist() -> None:
     points = [(0, 0, 0), (0, 0, 0), (0, 0, 0), (0, 90, 0), (0, 0, 90), (90, 0, 0)]
     rows = [AXES[0], AXES[1], AXES[2], AXES[0], AXES[1], AXES[2]]
     # rotation about z moves x at (0, 90, 0), about x y at (0, 0, 90), about y z at (90, 0, 0)
-    more = [run for row, point in zip(rows, points, strict=True) for run in across_x([row], point)]
-    assert found([*at_the_tool(), *more]).rank == 116
+    probes = {f"x{k}": across_x(row, point) for k, (row, point) in enumerate(zip(rows, points, strict=True))}
+    assert found({"tool": at_the_tool(), **probes}).rank == 116
 
 
 def test_one_probe_finds_the_joint_that_a_test_at_the_tool_finds_in_a_sum() -> None:

@@ -6,7 +6,7 @@ central differences, the null space by singular values. What is known alone is w
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ from scipy import stats
 
 from elastogeo.identification import explain, identify
 from elastogeo.machine import Array, Joint, Machine, parse_topology
-from elastogeo.observe import Imperfection, MachineTest, Question, Run, SphereNest
+from elastogeo.observe import Imperfection, KnownInfluence, MachineTest, Question, Run, SphereNest
 from elastogeo.report import view_of
 from elastogeo.sources import simulate
 
@@ -230,3 +230,44 @@ def test_the_exact_machine_gives_its_location_errors_back() -> None:
     result = identify(simulate(TABLE_TABLE.test("w", repeats=2), truth, exact=True))
     for name, value in truth.items():
         assert result[name].value == pytest.approx(value, abs=2e-6 if name[2] in "XYZ" else 5e-8), name
+
+
+ERROR_MOTIONS = ("rotary-axes", "E_[XYZ]w0", "E_[XYZAB]C[cs]2")
+
+
+def test_a_second_place_of_the_ball_tells_radial_from_tilt_error_motions() -> None:
+    """By hand: a ball h above the origin of C goes as far in x for a tilt of 1 about y as for a radial error of h."""
+    low = TABLE_TABLE.test("w", repeats=3)
+    high = replace(low, setup=replace(low.setup, centre={"X": -70.0, "Y": 100.0, "Z": 170.0}))
+    height = (
+        40.0
+        + TABLE_TABLE.tool_point[2]
+        + sum(TABLE_TABLE.offset(axis)[2] * (1 if axis in "XYZ" else -1) for axis in "XYZAC")
+    )
+    alone = explain(low, parameters=ERROR_MOTIONS).confounding
+    assert alone.stands_for("E_XCc2") == pytest.approx({"E_XCc2": 1.0, "E_BCc2": height})
+    truth = {"E_XCc2": 0.004, "E_BCc2": 2e-5, "E_X(0A)C": 0.01}
+    tests = {
+        name: simulate(test, truth, Imperfection(noise=3e-4), seed)
+        for seed, (name, test) in enumerate(zip(("low", "high"), (low, high), strict=True))
+    }
+    both = identify(tests, parameters=ERROR_MOTIONS)
+    assert both.confounding.rank == len(both.confounding.labels) == 8 + 6 + 10
+    for name, value in truth.items():
+        low_end, high_end = both[name].interval
+        assert low_end <= value <= high_end, name
+
+
+def test_what_is_known_of_an_end_is_in_the_budget() -> None:
+    """A tool point that may be 3 um off in each direction puts these 3 um on every position that it cannot be told from."""
+    blank = TABLE_TABLE.test("w", repeats=4)
+    known = KnownInfluence("tool-offset", "run-out of the ball", length=0.003)
+    plain, stated = (
+        identify(simulate(replace(blank, influences=influences), {"E_Y(0)A": 0.01}, Imperfection(noise=1e-4), seed=2))
+        for influences in ((), (known,))
+    )
+    for name in ("E_Y(0)A", "E_Z(0)A", "E_X(0A)C"):
+        added = stated[name].standard_uncertainty ** 2 - plain[name].standard_uncertainty ** 2
+        assert np.sqrt(added) == pytest.approx(0.003, rel=1e-3), name
+    for name in ("E_B(0)A", "E_A(0A)C"):
+        assert stated[name].standard_uncertainty == pytest.approx(plain[name].standard_uncertainty, rel=1e-6), name

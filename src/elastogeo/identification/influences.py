@@ -25,7 +25,7 @@ from elastogeo.estimate import Influence
 from elastogeo.identification.systems import RunSystem, Systems
 from elastogeo.machine import Array, Machine
 from elastogeo.observe import Campaign, KnownInfluence, MachineTest, ObservedInfluence
-from elastogeo.sources import load_derivative
+from elastogeo.sources import Source, design_rows, load_derivative, select_sources
 
 FORM_ORDERS = (2, 3, 4, 5)
 """Harmonics of a ball's form that are let loose; the first order is an offset of the ball."""
@@ -221,6 +221,18 @@ def bar_length(known: KnownInfluence, _: MachineTest, systems: Systems) -> Itera
     yield _reading_effect(_influence(known, known.length, "length_um"), systems, lambda run: np.ones(len(run.rows)))
 
 
+@effect("tool-offset", of="test")
+def tool_offset(known: KnownInfluence, test: MachineTest, systems: Systems) -> Iterator[Effect]:
+    """The tool point is off by an unknown amount in each direction of its frame: a ball that does not run true."""
+    yield from _end_offset(known, test.machine, systems, "t")
+
+
+@effect("workpiece-offset", of="test")
+def workpiece_offset(known: KnownInfluence, test: MachineTest, systems: Systems) -> Iterator[Effect]:
+    """The point on the workpiece side is off by an unknown amount in each direction of its frame."""
+    yield from _end_offset(known, test.machine, systems, "w")
+
+
 @effect("sensor-scale")
 def sensor_scale(known: KnownInfluence, _: MachineTest, systems: Systems) -> Iterator[Effect]:
     """The sensor reads a relative amount too much."""
@@ -254,6 +266,17 @@ def thermal_drift(known: KnownInfluence, _: MachineTest, systems: Systems) -> It
         systems,
         lambda run: (starts[run.name] + np.arange(len(run.rows))) / total - 0.5,
     )
+
+
+def _end_offset(known: KnownInfluence, machine: Machine, systems: Systems, end: str) -> Iterator[Effect]:
+    influence = _influence(known, known.length, "length_um")
+    for source in select_sources(machine, [f"E_{axis}{end}0" for axis in "XYZ"]):
+        yield _reading_effect(influence, systems, partial(_column, source, machine))
+
+
+def _column(source: Source, machine: Machine, run: RunSystem) -> Array:
+    """How a source moves the readings of a run, less what the run's own set-up explains of it."""
+    return np.asarray(run.without_own(design_rows([source], machine, run.observations)[:, :-1])[:, 0])
 
 
 def _measured(run: RunSystem) -> Array:

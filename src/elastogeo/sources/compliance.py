@@ -51,3 +51,26 @@ def _compliance(joint: Joint, d: int, f: int) -> Source:
         load=f,
         force_degree=1.0,
     )
+
+
+def alike_at_the_tool(machine: Machine) -> tuple[tuple[str, ...], ...]:
+    """Compliances that no test between tool and workpiece tells apart, whatever its poses, loads and tools.
+
+    A linear joint that gives way along a fixed direction displaces the tool by the same vector wherever it sits in the loop,
+    and carries the same force: the columns of such joints in a row, with no rotary joint between and none inclined, are
+    identical. Across the foundation too: both signs turn.
+    """
+    rows: list[list[Joint]] = [[]]
+    for name in machine.axes:
+        joint = machine.joints[machine.index(name)]
+        if joint.is_rotary or any(joint.tilt):
+            rows.append([])
+        elif joint.compliant:
+            rows[-1].append(joint)
+    return tuple(
+        tuple(f"C_{COMPONENTS[d]}{COMPONENTS[f]}{joint.name}" for joint in row)
+        for row in rows
+        if len(row) > 1
+        for d in range(3)
+        for f in range(3)
+    )

@@ -35,6 +35,11 @@ kind = "sensor-scale"
 label = "calibration of the sensors"
 relative = 0.002
 
+[[influences]]
+kind = "tool-offset"             # of the end that is known, in each direction; or workpiece-offset
+label = "ball against the spindle, run-out and length"
+length_um = 1
+
 """
 
 MOST_TURNS = 10.0

@@ -5,6 +5,7 @@ from __future__ import annotations
 from elastogeo.identification import Explanation
 from elastogeo.report.head import campaign_head
 from elastogeo.report.identification.explanation_document import explanation_json
+from elastogeo.report.identification.inseparable import inseparable_words
 from elastogeo.report.identification.reciprocity import reciprocity_words
 from elastogeo.report.identification.words import confounding_words
 from elastogeo.report.numbers import pretty
@@ -19,7 +20,7 @@ def explanation_view(explained: Explanation) -> View:
     asked = len(found.labels)
     rows = tuple((name, pretty(combination(found.stands_for(name)))) for name in found.retained)
     table = Table(("parameter", "stands for"), rows, words=(0, 1), title="What is determined")
-    words = tuple(map(pretty, confounding_words(found)))
+    words = tuple(map(pretty, (*confounding_words(found), *inseparable_words(campaign.machine, found))))
     groups = tuple(f"Always together: {', '.join(group)}" for group in found.groups if len(group) > 1)
     bought = () if explained.reciprocity is None else (pretty(reciprocity_words(explained.reciprocity)),)
     these = "these tests determine" if campaign.several else "this test determines"

@@ -10,6 +10,7 @@ from elastogeo.report.head import campaign_head, files_section, origin
 from elastogeo.report.identification.budgets import budget_tables, degrees, uncertainty_table
 from elastogeo.report.identification.document import identification_json
 from elastogeo.report.identification.force_dependence import force_section
+from elastogeo.report.identification.inseparable import inseparable_words
 from elastogeo.report.identification.models import model_said, models_words, ratio_said, shown_models
 from elastogeo.report.identification.pictures import picture
 from elastogeo.report.identification.recovery import recovered_words, recovery_section
@@ -62,7 +63,13 @@ def identification_view(result: Identification) -> View:
         rows=document["parameters"],
         alert=(*banner(result), *(pretty(label(p)) for p in result.parameters if not p.separated)),
         tables=(*([test_table(result)] if campaign.several else []), parameter_table(result), level_table(result)),
-        notes=(*together_words(result), *stands_for(result), *recovered_words(result), *log_words(campaign)),
+        notes=(
+            *together_words(result),
+            *stands_for(result),
+            *inseparable_words(campaign.machine, result.confounding),
+            *recovered_words(result),
+            *log_words(campaign),
+        ),
         sections=tuple(_sections(result)),
     )
 
@@ -273,7 +280,7 @@ def _confounding(result: Identification) -> Section:
     tables = (Table(("parameter", "stands for"), rows, words=(0, 1)), facts) if rows else (facts,)
     return Section(
         f"What this test {'distinguishes' if whole else 'cannot distinguish'}",
-        tuple(map(pretty, confounding_words(found))),
+        tuple(map(pretty, (*confounding_words(found), *inseparable_words(result.campaign.machine, found)))),
         (picture("patterns", result),) if not result.campaign.several else (),
         tables,
     )
