@@ -13,7 +13,17 @@ from elastogeo.errors import InputError
 from elastogeo.estimate import Factor, confounding, factor_blocks, merge
 from elastogeo.identification import identify, merged, systems_of
 from elastogeo.machine import Array, Joint, Machine, parse_topology
-from elastogeo.observe import Circle, KnownInfluence, LoadedBallBar, MachineTest, Positioning, Question, Run, approaches
+from elastogeo.observe import (
+    Circle,
+    Imperfection,
+    KnownInfluence,
+    LoadedBallBar,
+    MachineTest,
+    Positioning,
+    Question,
+    Run,
+    approaches,
+)
 from elastogeo.sources import design_rows, select_sources, simulate
 
 TARGETS = (-190.0, -120.0, -35.0, 42.0, 117.0, 180.0)
@@ -241,3 +251,53 @@ def test_a_bar_and_a_laser_together_distinguish_what_a_bar_alone_does_not() -> N
         together = confounding(merge(bar, factor_blocks(names, blocks)))
         assert together.rank == 14
         assert together.condition_scaled < 30
+
+
+def bar_and_laser(seed: int) -> tuple[MachineTest, MachineTest]:
+    """A loaded bar that is 6 um too long, and a positioning test of X, of one machine."""
+    on, angle = machine("wFYXt"), np.linspace(0, 2 * np.pi, 36, endpoint=False)
+    runs = tuple(
+        Run(f"{force:g} N, {k}", {"angle": angle, "radial": 0 * angle}, force=force)
+        for force in (36.0, 742.0)
+        for k in range(3)
+    )
+    asked = Question(("elasto-geometric-xy", "E_R0"))
+    bar = MachineTest("bar", on, LoadedBallBar(Circle(150.0), 30.0), runs, asked)
+    laser = MachineTest("laser", on, Positioning("X", targets=TARGETS), (Run("laser", {}),), Question(("E_XX1",)))
+    motion = {"E_XX1": 2e-5, "E_YY1": -3e-5, "C_XXX": 6e-5}
+    return (
+        simulate(bar, {**motion, "E_R0": 0.006}, Imperfection(noise=1e-4), seed, exact=False),
+        simulate(laser, {**motion, "E_R0": 1.5}, Imperfection(noise=2e-4), seed + 1, exact=False),
+    )
+
+
+def test_a_campaign_of_bar_and_laser_distinguishes_them_by_the_door() -> None:
+    """The zero of the laser is its own: it may be anything."""
+    bar, laser = bar_and_laser(4)
+    alone = identify(bar)
+    assert (alone.confounding.rank, len(alone.confounding.labels)) == (13, 14)
+    together = identify([bar, laser])
+    assert (together.confounding.rank, len(together.confounding.labels)) == (14, 14)
+    assert set(together.together) >= {"E_YY1", "E_R0@bar"}  # neither test tells them; E_XX1 the laser tells alone
+    for name, true in (("E_XX1", 2e-5), ("E_YY1", -3e-5), ("E_R0@bar", 0.006)):
+        value = together[name]
+        assert value.estimate is not None
+        assert abs(value.value - true) < 5 * value.estimate.standard_uncertainty
+        assert value.estimate.standard_uncertainty < 0.1 * abs(true)
+
+
+def test_a_campaign_of_laser_and_angular_sensor_frees_positioning_of_its_lever() -> None:
+    """80 mm below the carriage the laser reads E_XX1 - 80 mm E_BX1; with the pitch read beside it both are known."""
+    on = machine("wFXYZt", (0.0, 0.0, -80.0))
+    truth = {"E_XX1": 1e-5, "E_BX1": 2e-7}
+    tests = []
+    for seed, setup in enumerate((Positioning("X", targets=TARGETS), Positioning("X", about=(0, 1, 0), targets=TARGETS))):
+        blank = MachineTest(f"test-{seed}", on, setup, (Run("run", {}),), Question(tuple(truth)))
+        tests.append(simulate(blank, truth, Imperfection(noise=4e-4, angle_noise=4e-7), seed, exact=False))
+    assert identify(tests[0]).confounding.rank == 1
+    together = identify(tests)
+    assert together.confounding.rank == 2
+    for name, true in truth.items():
+        low, high = together[name].interval or (np.nan, np.nan)
+        assert low <= true <= high
+        assert high - low < abs(true)

@@ -128,3 +128,24 @@ def test_the_page_holds_no_markup_of_names(linear: PositioningResults) -> None:
     page = html_page(view, {name: drawn(picture) for name, picture in view.pictures.items()})
     assert "<mill>" not in page
     assert "&lt;mill&gt;" in page
+
+
+def test_angles_are_shown_as_angles_in_an_identification_too() -> None:
+    """0.2 urad/mm over the travel are 74 microradians, never micrometres; the document says null rather than um."""
+    found = evaluated(Positioning("X", about=(0.0, 1.0, 0.0), targets=TARGETS), noise=4e-7, E_BX1=2e-7)
+    assert found.joints is not None
+    view = view_of(found.joints)
+    parameters = view.tables[0]
+    first = dict(zip(parameters.headings, parameters.rows[0], strict=True))
+    assert float(first["peak to peak [µrad]"]) == pytest.approx(370 * 0.2, rel=0.1)
+    assert "RMSE [µrad]" in view.tables[1].headings
+    document = view.document
+    assert document["rmse_um"] is None
+    assert document["parameters"][0]["peak_to_peak_um"] is None
+    assert document["levels"][0]["rmse_um"] is None
+    assert document["tests"][0]["rmse_urad"] == pytest.approx(0.4, rel=0.5)
+    assert view.picture is not None
+    with house_style():
+        (axes,) = view.picture.draw().axes
+    assert axes.get_ylabel() == "reading (µrad)"
+    assert axes.get_xlabel() == "target (mm)"

@@ -39,7 +39,7 @@ class Parameter(Part):
         95 % coverage interval; None where there is no `estimate`.
     stands_for : dict of str to float
         The exact combination that it represents: coefficient by name, itself first.
-    peak_to_peak : float [mm]
+    peak_to_peak : float [mm, or rad where all readings are angles]
         Range of its part of the trace at the highest force, zero included, with the sign of the value: what shifts all
         readings alike counts in full.
     share : float

@@ -9,6 +9,7 @@ from elastogeo.identification import Identification, Parameter
 from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
 
 UM = 1000.0
+MICRO = 1e6
 MOST_TERMS = 6
 """Terms of a sum that are written where there is little room; the folded sections and the JSON hold all."""
 UNTOLD = "compliance and geometry, not told apart"
@@ -27,8 +28,8 @@ class ParameterRow:
         The combination instead, where compliance and geometry are not told apart: no single name is right then.
     value, unit : str
         The value is `value ± U`, where U is half the 95 % interval, in `unit`; the value alone where there is none.
-    peak_to_peak_um, share_percent : str
-        Of its part of the trace at the highest force, with the sign of the value.
+    peak_to_peak, share_percent : str
+        Of its part of the trace at the highest force, with the sign of the value, in the unit of the readings.
     stands_for : str
         The combination it represents: `C_XXX + C_XXY`.
     meaning : str
@@ -37,7 +38,7 @@ class ParameterRow:
     name: str
     value: str
     unit: str
-    peak_to_peak_um: str
+    peak_to_peak: str
     share_percent: str
     stands_for: str
     meaning: str
@@ -45,19 +46,25 @@ class ParameterRow:
 
 def parameter_rows(result: Identification) -> tuple[ParameterRow, ...]:
     """The rows of the parameter table, in the order of the result."""
-    shown = display_units(result)
+    shown, read = display_units(result), reading_unit(result)
     return tuple(
         ParameterRow(
             name=label(p),
             value=said_value(p, shown[p.name]),
             unit=shown[p.name].name,
-            peak_to_peak_um=in_micrometres(p.peak_to_peak),
+            peak_to_peak=significant(p.peak_to_peak * read.factor),
             share_percent=f"{100 * p.share:.1f}" if p.axis or p.share else "",
             stands_for=combination(p.stands_for),
             meaning=p.meaning if p.separated else UNTOLD,
         )
         for p in result.parameters
     )
+
+
+def reading_unit(result: Identification, test: str = "") -> DisplayUnit:
+    """The unit in which readings are shown, those of one test or of all: microradians where all are angles."""
+    parts = [part for part in result.tests if test in ("", part.name)]
+    return DisplayUnit("µrad", MICRO) if parts and all(part.angular for part in parts) else DisplayUnit("µm", UM)
 
 
 def said_value(parameter: Parameter, unit: DisplayUnit) -> str:

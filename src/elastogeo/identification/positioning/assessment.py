@@ -97,7 +97,7 @@ def _along_command(run: Observations) -> float:
 
 def _effects(test: MachineTest, observed: Sequence[Observations]) -> tuple[Effect, ...]:
     """The effects of the stated influences on the readings, whatever parameters are asked for."""
-    return effects_of(test, systems_of(test, observed)) if test.influences else ()
+    return effects_of(test, systems_of(test, observed))
 
 
 def _levers(test: MachineTest, observed: Sequence[Observations]) -> Mapping[str, float]:

@@ -155,7 +155,11 @@ def nominal_radius(result: Identification) -> float | None:
 
 def pose_axis(result: Identification) -> tuple[str, float]:
     """Label of what the readings count along, and the factor to its shown unit."""
-    return ("angle (°)", 180 / np.pi) if is_angular(result) else (result.test.setup.pose_quantity, 1.0)
+    if is_angular(result):
+        return "angle (°)", 180 / np.pi
+    quantity = result.test.setup.pose_quantity
+    unit = result.test.setup.file_units.get(quantity, "")
+    return (f"{quantity} (°)", 180 / np.pi) if unit == "deg" else (f"{quantity} ({unit})" if unit else quantity, 1.0)
 
 
 def plane_axes(result: Identification) -> tuple[str, ...]:

@@ -26,7 +26,7 @@ confounded : [[name, name, ...]], parameters that always produce the same trace 
 rank, columns : how many combinations are determined, of how many parameters
 condition_raw, condition_scaled : of the retained columns as they are, and scaled to unit length
 singular_values : of the scaled retained columns, greatest first
-rmse_um : over all readings
+rmse_um : over all readings that are no angles; null, as `peak_to_peak_um` and the `rmse_um` of levels, where all are
 levels : [{test, force_N, readings, rmse_um, fitness_percent, elastic_um, geometric_um, linear, local}], forces and
     readings less the reference's if one was taken off; `elastic_um` and `geometric_um` are [least, greatest] deviation
     that compliance, and that geometry without the set-up, cause; null unless every parameter is separated. `linear` and
@@ -94,6 +94,7 @@ SHARED_REFERENCE = (
 def identification_json(result: Identification) -> dict[str, Any]:
     """An identification as one JSON object (`elastogeo.identification/1`)."""
     separated = all(parameter.separated for parameter in result.parameters)
+    angular = {part.name for part in result.tests if part.angular}
     return document(
         IDENTIFICATION_SCHEMA,
         {
@@ -103,8 +104,8 @@ def identification_json(result: Identification) -> dict[str, Any]:
             "by_run": result.by_run,
             "parameters": [_parameter(result, k, parameter) for k, parameter in enumerate(result.parameters)],
             **confounding_entries(result.confounding),
-            "rmse_um": result.rmse * UM,
-            "levels": [_level(level, separated) for level in result.levels],
+            "rmse_um": in_um(None if len(angular) == len(result.tests) else result.rmse),
+            "levels": [_level(level, separated, level.test in angular) for level in result.levels],
             "linear": None if result.variable is None else _linear(result.variable),
             "local": [_local(local) for local in result.local],
             "local_change": None if result.local_change is None else change_entry(result.local_change),
@@ -165,6 +166,7 @@ def change_entry(change: Change) -> dict[str, Any]:
 
 
 def _parameter(result: Identification, k: int, parameter: Parameter) -> dict[str, Any]:
+    angles = all(part.angular for part in result.tests)
     return {
         "name": parameter.name,
         "value": parameter.value,
@@ -172,7 +174,7 @@ def _parameter(result: Identification, k: int, parameter: Parameter) -> dict[str
         "standard_uncertainty": parameter.standard_uncertainty,
         "interval95": parameter.interval,
         "stands_for": parameter.stands_for,
-        "peak_to_peak_um": parameter.peak_to_peak * UM,
+        "peak_to_peak_um": in_um(None if angles else parameter.peak_to_peak),
         "share": parameter.share,
         "meaning": parameter.meaning,
         "axis": parameter.axis,
@@ -206,12 +208,12 @@ def _budget_line(line: BudgetLine) -> dict[str, Any]:
     }
 
 
-def _level(level: Level, separated: bool) -> dict[str, Any]:
+def _level(level: Level, separated: bool, angular: bool) -> dict[str, Any]:
     return {
         "test": level.test,
         "force_N": level.force,
         "readings": level.readings,
-        "rmse_um": level.rmse * UM,
+        "rmse_um": in_um(None if angular else level.rmse),
         "fitness_percent": level.fitness,
         "elastic_um": [bound * UM for bound in level.elastic] if separated else None,
         "geometric_um": [bound * UM for bound in level.geometric] if separated else None,

@@ -88,7 +88,7 @@ def influences_stated(facts: Facts, passed: bool | None) -> str:
     if passed:
         return f"The uncertainties hold {', '.join(dict.fromkeys(facts['stated']))}."
     return (
-        "The test states no systematic influence: no uncertainty of the force, of the bar's length or of its temperature is "
+        "The test states no systematic influence: no uncertainty of the force, of the instrument or of the temperature is "
         "in the intervals. State what is known under [[influences]]."
     )
 

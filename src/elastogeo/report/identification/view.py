@@ -35,6 +35,7 @@ from elastogeo.report.text import (
     label,
     labels,
     parameter_rows,
+    reading_unit,
     said_value,
 )
 from elastogeo.report.view import KeyValue, Section, Table, View, attention_sentence, said, views
@@ -106,11 +107,11 @@ def parameter_table(result: Identification) -> Table:
     """The identified parameters, the set-up last and without a share."""
     rows = zip(result.parameters, parameter_rows(result), strict=True)
     ordered = sorted(rows, key=lambda pair: not pair[0].axis)
-    strongest = _strongest(result)
+    strongest, read = _strongest(result), reading_unit(result).name
     return Table(
-        headings=("parameter", "value ± U (95 %)", "unit", "peak to peak [µm]", "share [%]", "meaning"),
+        headings=("parameter", "value ± U (95 %)", "unit", f"peak to peak [{read}]", "share [%]", "meaning"),
         rows=tuple(
-            (r.name, pretty(r.value), r.unit, pretty(r.peak_to_peak_um), r.share_percent if p.axis else "", r.meaning)
+            (r.name, pretty(r.value), r.unit, pretty(r.peak_to_peak), r.share_percent if p.axis else "", r.meaning)
             for p, r in ordered
         ),
         words=(0, 2, 5),
@@ -124,10 +125,10 @@ def parameter_table(result: Identification) -> Table:
 def level_table(result: Identification) -> Table:
     """How well every force level is fitted, and what compliance and geometry do there."""
     both = all_separated(result) and {p.elastic for p in result.parameters if p.axis} == {True, False}
-    headings = ("force [N]", "readings", "RMSE [µm]", "fitness [%]")
+    headings = ("force [N]", "readings", f"RMSE [{reading_unit(result).name}]", "fitness [%]")
     return Table(
         headings=(*headings, "compliance [µm]", "geometry [µm]") if both else headings,
-        rows=tuple(_level_row(level)[: 6 if both else 4] for level in result.levels),
+        rows=tuple(_level_row(result, level)[: 6 if both else 4] for level in result.levels),
         words=(),
         title="Fit by force level",
         note="Fitness is 100 % less the RMSE in percent of the range of the readings (Eqs. 5.40, 5.41)."
@@ -308,11 +309,12 @@ def _strongest(result: Identification) -> Level:
     return max(result.levels, key=lambda level: abs(level.force))
 
 
-def _level_row(level: Level) -> tuple[str, ...]:
+def _level_row(result: Identification, level: Level) -> tuple[str, ...]:
+    own, read = reading_unit(result, level.test), reading_unit(result)
     return (
         f"{level.force:g}",
         str(level.readings),
-        in_micrometres(level.rmse),
+        f"{significant(level.rmse * own.factor)}{'' if own == read else f' {own.name}'}",
         significant(level.fitness, 4),
         *(pretty(f"{in_micrometres(low)} to {in_micrometres(high)}") for low, high in (level.elastic, level.geometric)),
     )

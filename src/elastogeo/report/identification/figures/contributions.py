@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from elastogeo.identification import Identification, Parameter
 from elastogeo.report.drawing.style import BLUE, FAINT, GREY, INK, ORANGE, new_figure
 from elastogeo.report.numbers import significant
-from elastogeo.report.text import UM, label
+from elastogeo.report.text import UM, label, reading_unit
 
 COMPLIANCE, GEOMETRY, MOTION, SETUP, UNTOLD = "compliance", "geometry", "geometry, motion", "set-up", "not told apart"
 _LOOKS: dict[str, dict[str, Any]] = {
@@ -41,13 +41,13 @@ class Bar:
 
 
 def contributions_figure(result: Identification) -> Figure:
-    """Peak-to-peak part of each parameter in the trace at the highest force [µm], signed, greatest first."""
-    bars = []
+    """Peak-to-peak part of each parameter in the trace at the highest force, signed, greatest first."""
+    bars, unit = [], reading_unit(result)
     for p in sorted(result.parameters, key=lambda p: abs(p.peak_to_peak)):
-        per_unit = p.peak_to_peak / p.value * UM if p.value else 0.0
+        per_unit = p.peak_to_peak / p.value * unit.factor if p.value else 0.0
         low, high = sorted(bound * per_unit for bound in p.interval or (p.value, p.value))
         share, sure = f" · {100 * p.share:.1f} %" if p.share else "", not low <= 0 <= high
-        bars.append(Bar(fill(label(p), _LINE), p.peak_to_peak * UM, low, high, share, kind_of(result, [p]), sure))
+        bars.append(Bar(fill(label(p), _LINE), p.peak_to_peak * unit.factor, low, high, share, kind_of(result, [p]), sure))
     return ranked(result, bars)
 
 
@@ -74,7 +74,7 @@ def ranked(result: Identification, bars: Sequence[Bar]) -> Figure:
     lines = max(1.25 if "\n" in bar.name else 1.0 for bar in bars)
     figure = new_figure(0.95 + 0.25 * lines * len(bars))
     ax = figure.subplots()
-    resolution = _resolution(result)
+    resolution, unit = _resolution(result), reading_unit(result).name
     if resolution is not None:
         ax.axvspan(-resolution, resolution, color=FAINT, zorder=0, linewidth=0)
     for k, bar in enumerate(bars):
@@ -87,12 +87,12 @@ def ranked(result: Identification, bars: Sequence[Bar]) -> Figure:
     ax.set_ylim(-0.6, len(bars) - 0.4)
     ax.margins(x=0.03)
     beside = ax.twinx()
-    beside.set_yticks(range(len(bars)), [f"{significant(bar.length)} µm{bar.share}".replace("-", "−") for bar in bars])
+    beside.set_yticks(range(len(bars)), [f"{significant(bar.length)} {unit}{bar.share}".replace("-", "−") for bar in bars])
     beside.set_ylim(ax.get_ylim())
     beside.tick_params(axis="y", length=0)
     beside.spines["left"].set_visible(False)
     force = max((level.force for level in result.levels), key=abs)
-    text = f"peak to peak at {force:g} N (µm); line: 95 % interval"
+    text = f"peak to peak at {force:g} N ({unit}); line: 95 % interval"
     ax.set_xlabel(text if resolution is None else f"{text}; grey: ± resolution")
     kinds = [kind for kind in _LOOKS if any(bar.kind == kind for bar in bars)]
     if len(kinds) > 1:

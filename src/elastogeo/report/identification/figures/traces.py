@@ -36,7 +36,7 @@ from elastogeo.report.drawing.style import (
     thinned,
 )
 from elastogeo.report.numbers import significant
-from elastogeo.report.text import UM
+from elastogeo.report.text import reading_unit
 
 _SENSES = {1: "CCW", -1: "CW"}
 _ARROW_AT, _ARROW = np.radians(135.0), np.radians(14.0)
@@ -63,24 +63,27 @@ def local_traces_figure(result: Identification) -> Figure:
 
 
 def residuals_figure(result: Identification) -> Figure:
-    """Measured minus predicted readings [µm] of every level."""
+    """Measured minus predicted readings of every level."""
     levels = [level.force for level in result.levels]
     figure, axes = grid(len(levels), 2 if len(levels) > 3 else 1, 1.25 if len(levels) > 1 else 2.0, sharey=True)
-    largest = max(float(np.abs(t.measured - t.predicted).max()) for t in result.traces) * UM or 1.0
+    unit = reading_unit(result)
+    largest = max(float(np.abs(t.measured - t.predicted).max()) for t in result.traces) * unit.factor or 1.0
     label, factor = pose_axis(result)
     for ax, level in zip(axes, result.levels, strict=True):
         for trace, again in of_level(result.traces, level.force):
-            pose, left = thinned(trace.pose, (trace.measured - trace.predicted) * UM, len(result.traces))
+            pose, left = thinned(trace.pose, (trace.measured - trace.predicted) * unit.factor, len(result.traces))
             ax.plot(pose * factor, left, color=BLUE, linewidth=0.35 if again else 0.6, alpha=0.45 if again else 1.0)
         ax.axhline(0, color=INK, linewidth=0.6)
         ax.set_ylim(-1.1 * largest, 1.1 * largest)
         ax.set_title(f"{level.force:g} N", loc="left", fontweight="bold", pad=3)
-        ax.set_title(f"RMSE {significant(level.rmse * UM)} µm", loc="right", fontsize=SMALL, color=GREY, pad=3)
+        ax.set_title(
+            f"RMSE {significant(level.rmse * unit.factor)} {unit.name}", loc="right", fontsize=SMALL, color=GREY, pad=3
+        )
         if is_angular(result):
             ax.xaxis.set_major_locator(MultipleLocator(90))
         ax.margins(x=0.01)
     figure.supxlabel(label, fontsize=8.5)
-    figure.supylabel("measured − predicted (µm)", fontsize=8.5)
+    figure.supylabel(f"measured − predicted ({unit.name})", fontsize=8.5)
     return figure
 
 
@@ -182,17 +185,18 @@ def _along(result: Identification, traces: Sequence[Trace], lines: Predicted, na
     figure = new_figure(3.6)
     ax = figure.subplots()
     label, factor = pose_axis(result)
+    unit = reading_unit(result)
     for force, colour in force_colours([level.force for level in result.levels]).items():
         for trace, again in of_level(traces, force):
-            pose, measured = broken(*thinned(trace.pose, trace.measured * UM, len(traces)))
+            pose, measured = broken(*thinned(trace.pose, trace.measured * unit.factor, len(traces)))
             said = "_" if again else f"{force:g} N"
             ax.plot(pose * factor, measured, color=colour, linewidth=0.4 if again else 1.6, label=said)
             for at, predicted in lines[trace.run]:
-                pose, values = broken(*thinned(at, predicted * UM, len(traces)))
+                pose, values = broken(*thinned(at, predicted * unit.factor, len(traces)))
                 ax.plot(pose * factor, values, color=INK, linewidth=0.7, linestyle=(0, (4, 3)), label="_")
     ax.plot([], [], color=INK, linewidth=0.7, linestyle=(0, (4, 3)), label=name)
     ax.set_xlabel(label)
-    ax.set_ylabel("reading (µm)")
+    ax.set_ylabel(f"reading ({unit.name})")
     ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     return figure
 
