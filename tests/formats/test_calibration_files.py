@@ -20,7 +20,8 @@ from elastogeo.formats import (
     write_calibration,
 )
 from elastogeo.identification.calibrations import calibrate_force
-from elastogeo.observe import About, BallRoller, Calibration, LoadedBallBar
+from elastogeo.machine import About
+from elastogeo.observe import BallRoller, Calibration, LoadedBallBar
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

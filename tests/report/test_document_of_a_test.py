@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from elastogeo.identification import identify
-from elastogeo.machine import Machine, parse_topology
-from elastogeo.observe import About, BallBar, Circle, MachineTest, Question, Run, Sensor, SensorFrame
+from elastogeo.machine import About, Machine, parse_topology
+from elastogeo.observe import BallBar, Circle, MachineTest, Question, Run, Sensor, SensorFrame
 from elastogeo.report import view_of
 from elastogeo.sources import simulate
 

@@ -381,7 +381,7 @@ def check_alive(records: Sequence[DriveRecord], masks: Sequence[Mask], model: To
 
 
 def _dead(records: Sequence[DriveRecord], count: int) -> Iterator[str]:
-    efforts = {float(end) for r in records for end in (r.effort.min(), r.effort.max())}
+    efforts = {float(end) + 0.0 for r in records for end in (r.effort.min(), r.effort.max())}
     still = len({float(end) for r in records for end in (r.velocity.min(), r.velocity.max())}) == 1
     if len(efforts) == 1 and (efforts == {0.0} or not still):
         yield f"its effort is {efforts.pop():g} {records[0].effort_unit} in all {count} samples: the channel is dead"

@@ -9,6 +9,7 @@ from elastogeo.drive.feed_drive import FeedDrive
 from elastogeo.drive.model import TorqueModel
 from elastogeo.drive.records import DriveRecord
 from elastogeo.errors import InputError
+from elastogeo.machine import About
 
 EVERY_LOG = "all logs"
 """How a note begins that holds for all logs of a test."""
@@ -41,6 +42,9 @@ class DriveTest:
         What was done to the logs.
     simulated : str
         From what the records are simulated; empty if they were measured.
+    about : About
+    files : mapping of str to tuple of (str, str)
+        Name and SHA-256 of the log of each run.
     """
 
     name: str
@@ -54,6 +58,8 @@ class DriveTest:
     models: Mapping[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     simulated: str = ""
+    about: About = field(default_factory=About)
+    files: Mapping[str, tuple[str, str]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Refuse a test that asks of runs or axes that are not there."""

@@ -1,6 +1,7 @@
 """What a machine is: topology, axes, frames, poses to Jacobian columns, batched. Stands on `estimate`, `errors`."""
 
 from elastogeo.estimate import Array
+from elastogeo.machine.about import About
 from elastogeo.machine.commands import Commands, Motion, follow, workpiece_ball
 from elastogeo.machine.frames import (
     Frame,
@@ -50,6 +51,7 @@ __all__ = [
     "MM_OR_RAD",
     "ROTARY",
     "SPINDLE",
+    "About",
     "Angle",
     "Array",
     "AxisCommands",

@@ -1,6 +1,5 @@
 """Instruments and tests, made into a table of observations. Stands on `drive`, `machine`, `estimate` and `errors`."""
 
-from elastogeo.observe.about import About
 from elastogeo.observe.bars.ball_bar import LoadedBallBar
 from elastogeo.observe.bars.unloaded import BallBar
 from elastogeo.observe.campaign import Askable, Campaign, campaign_of, with_questions
@@ -29,7 +28,6 @@ __all__ = [
     "ASSUMED",
     "PLANES",
     "THESIS_CALIBRATION",
-    "About",
     "Approaches",
     "Askable",
     "BallBar",

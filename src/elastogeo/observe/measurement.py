@@ -8,8 +8,7 @@ from math import inf
 
 from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
-from elastogeo.machine import Force, Forces, Length, Machine
-from elastogeo.observe.about import About
+from elastogeo.machine import About, Force, Forces, Length, Machine
 from elastogeo.observe.covariance import with_covariance
 from elastogeo.observe.instruments import instrument_of
 from elastogeo.observe.observations import Observations

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from elastogeo.machine import About
 from elastogeo.observe import Campaign, MachineTest, campaign_of
 from elastogeo.report.text import in_micrometres
 from elastogeo.report.view import Section, Table
@@ -14,28 +15,35 @@ _MINUTE = 60.0
 
 def head(test: MachineTest) -> tuple[tuple[str, str], ...]:
     """What was tested and how, as labelled lines; nothing is said of what is not known."""
-    topology, about = test.machine.topology, test.about
+    topology = test.machine.topology
     readings = sum(len(next(iter(run.columns.values()))) for run in test.runs)
     reference = test.question.reference_force
     files = {run.file for run in test.runs if run.sha256}
     lines = [
         ("Machine", f"{test.machine.name}, {topology.compact} {topology.iso}"),
-        ("Machine serial number", about.machine_serial),
-        ("Instrument", ", ".join(filter(None, (test.instrument.replace("-", " "), about.instrument)))),
-        ("Instrument serial number", about.instrument_serial),
-        ("Calibrated", about.instrument_calibrated),
-        ("Date", about.date),
-        ("Operator", about.operator),
-        ("Place", about.place),
+        *about_lines(test.about, test.instrument.replace("-", " ")),
         ("Path", _path(test)),
         ("Runs", f"{len(test.runs)}, with {readings} readings"),
         ("Asked for", ", ".join(test.asked)),
         ("Reference", "" if reference is None else f"the readings at {reference:g} N are subtracted"),
         ("Resolution", "not stated" if test.resolution is None else f"{in_micrometres(test.resolution)} µm"),
-        ("Remarks", about.remarks),
+        ("Remarks", test.about.remarks),
         ("Files", f"{len(files)}, their SHA-256 below" if files else ""),
     ]
     return tuple((label, text) for label, text in lines if text)
+
+
+def about_lines(about: About, instrument: str = "") -> tuple[tuple[str, str], ...]:
+    """Who, when, where, with which machine and instrument; empty where it is not known."""
+    return (
+        ("Machine serial number", about.machine_serial),
+        ("Instrument", ", ".join(filter(None, (instrument, about.instrument)))),
+        ("Instrument serial number", about.instrument_serial),
+        ("Calibrated", about.instrument_calibrated),
+        ("Date", about.date),
+        ("Operator", about.operator),
+        ("Place", about.place),
+    )
 
 
 def campaign_head(campaign: Campaign) -> tuple[tuple[str, str], ...]:

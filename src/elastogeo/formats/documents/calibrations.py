@@ -13,8 +13,8 @@ from elastogeo.errors import FormatError
 from elastogeo.estimate import Estimate
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.formats.text.whole_files import write_whole
-from elastogeo.machine import LengthPerPressure
-from elastogeo.observe import About, Calibration
+from elastogeo.machine import About, LengthPerPressure
+from elastogeo.observe import Calibration
 
 SCHEMA = "elastogeo.calibration/1"
 _OF_SETUP = {

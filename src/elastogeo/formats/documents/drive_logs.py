@@ -11,6 +11,7 @@ from elastogeo.formats.log import Log
 from elastogeo.formats.log_files import read_log
 from elastogeo.formats.logs.parquet import read_recording
 from elastogeo.formats.recording_files import PART, part_files
+from elastogeo.formats.text.fingerprint import sha256_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +40,10 @@ class RunLog:
             If it is not what it must be.
         """
         return read_recording(self.path, self.parts) if self.parts else read_log(self.path)
+
+    def sha256(self) -> str:
+        """SHA-256 of the file; of the folder of a recording, as `sha256_of` makes it."""
+        return sha256_of(self.path)
 
 
 def is_recording(path: Path) -> bool:

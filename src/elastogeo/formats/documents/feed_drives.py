@@ -38,7 +38,7 @@ from elastogeo.formats.channels import on_one_clock
 from elastogeo.formats.documents.drive_logs import RunLog, is_recording, named_logs, runs_of
 from elastogeo.formats.documents.drive_records import LoadDocument, loaded, records_of
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
-from elastogeo.machine import Feed, Frequency, Time
+from elastogeo.machine import About, Feed, Frequency, Time
 
 SCHEMA = "elastogeo.drive/1"
 FILE_NAME = "drive.toml"
@@ -149,6 +149,8 @@ class DriveDocument:
         Models whose parameters come first.
     simulated : str
         From what the logs are simulated; empty if they were measured.
+    about : About
+        Who, when, where, with what.
     """
 
     schema: str
@@ -164,6 +166,7 @@ class DriveDocument:
     held_out: tuple[str, ...] = ()
     models: tuple[ShownDocument, ...] = ()
     simulated: str = ""
+    about: About = field(default_factory=About)
 
 
 def read_drives(
@@ -238,6 +241,8 @@ def _test(
         models={shown.axis: shown.name for shown in document.models},
         notes=tuple(f"{', '.join(of) if len(of) < len(logs) else EVERY_LOG}: {said}" for said, of in notes.items()),
         simulated=document.simulated,
+        about=document.about,
+        files={log.name: (log.path.name, log.sha256()) for log in logs},
     )
     strangers = [run for load in document.loads for run in load.runs if run not in runs]
     if strangers:

@@ -24,8 +24,8 @@ from elastogeo.formats.text.fingerprint import sha256_of
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.formats.text.units import UNITS
-from elastogeo.machine import Force, Length, Pressure, Time
-from elastogeo.observe import About, KnownInfluence, MachineTest, Question, Run, check_runs, instrument_named, turning
+from elastogeo.machine import About, Force, Length, Pressure, Time
+from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, check_runs, instrument_named, turning
 
 SCHEMA = "elastogeo.test/1"
 FILE_NAME = "test.toml"

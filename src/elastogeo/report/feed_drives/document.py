@@ -1,6 +1,6 @@
 """`elastogeo.drive/1`: the torque balance of feed drives.
 
-test : {name, simulated, runs, held_out, axes, notes}
+test : {name, simulated, runs, held_out, axes, notes, about, files: [{run, file, sha256}]}
 axes : one entry per axis:
     axis, effort_unit
     refusal : why it cannot be identified; empty if it can
@@ -52,6 +52,8 @@ def drive_json(result: DriveIdentification) -> dict[str, Any]:
                 "held_out": test.held_out,
                 "axes": test.axes,
                 "notes": test.notes,
+                "about": {key: value for key, value in asdict(test.about).items() if value},
+                "files": [{"run": run, "file": file, "sha256": sha256} for run, (file, sha256) in test.files.items()],
             },
             "axes": [_axis(axis) for axis in result.axes],
             "verdict": verdict_entries(result.verdict),

@@ -3,58 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from elastogeo.drive import BalanceFit, DriveRecord, Motion, usable
 from elastogeo.identification.feed_drives import AxisDrive, DriveIdentification
-from elastogeo.report.extra import needs_report_extra
+from elastogeo.report.drawing.style import BLUE, FAINT, GREY, INK, ORANGE, READABLE, SMALL, new_figure
+from elastogeo.report.feed_drives.rows import identified
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
+_QUANTITIES = {"A": "current", "N mm": "torque", "N": "force"}
 _SHOWN = 300
 """Samples of a run that are shown: more would be a black band."""
 _POINTS = 1500
 
 
-def drive_figures(result: DriveIdentification) -> dict[str, Figure]:
-    """Every figure that the drives have something to show in, by name.
+def friction_figure(result: DriveIdentification) -> Figure:
+    """Friction over velocity, an axis a panel."""
+    axes = identified(result)
+    figure = new_figure(0.3 + min(2.9, 7.2 / len(axes)) * len(axes), width=READABLE)
+    for ax, found in zip(_panels(figure, len(axes)), axes, strict=True):
+        _friction(ax, found, result.test.of(found.axis))
+    return figure
 
-    Returns
-    -------
-    dict of str to matplotlib Figure
-        `friction` and `run` if an axis is identified, `models` if models were compared.
 
-    Raises
-    ------
-    MissingExtraError
-        If matplotlib is not installed.
-    """
-    told = [axis for axis in result.axes if axis.fit is not None and axis.fit.separated]
-    if not told:
-        return {}
-    with needs_report_extra():
-        from elastogeo.report.drawing.style import grid, house_style, new_figure
-    drawn: dict[str, Figure] = {}
-    with house_style():
-        figure, axes = grid(len(told), 2, 3.0)
-        for ax, found in zip(axes, told, strict=True):
-            _friction(ax, found, result.test.of(found.axis))
-        drawn["friction"] = figure
-        figure = new_figure(2.3 * len(told))
-        for ax, found in zip(np.atleast_1d(figure.subplots(len(told), 1)), told, strict=True):
-            _run(ax, found, result.test.of(found.axis))
-        drawn["run"] = figure
-        compared = [axis for axis in told if axis.models]
-        if compared:
-            figure = new_figure(0.6 + 0.24 * sum(len(axis.models) + 2 for axis in compared))
-            for ax, found in zip(np.atleast_1d(figure.subplots(len(compared), 1)), compared, strict=True):
-                _models(ax, found)
-            drawn["models"] = figure
-    return drawn
+def run_figure(result: DriveIdentification) -> Figure:
+    """A run as recorded and as predicted, an axis a panel."""
+    axes = identified(result)
+    figure = new_figure(2.3 * len(axes))
+    for ax, found in zip(_panels(figure, len(axes)), axes, strict=True):
+        _run(ax, found, result.test.of(found.axis))
+    return figure
+
+
+def models_figure(result: DriveIdentification) -> Figure:
+    """Error of every compared model, an axis a panel."""
+    axes = [axis for axis in identified(result) if axis.models]
+    figure = new_figure(0.6 + 0.24 * sum(len(axis.models) + 2 for axis in axes))
+    for ax, found in zip(_panels(figure, len(axes)), axes, strict=True):
+        _models(ax, found)
+    return figure
+
+
+def _panels(figure: Figure, count: int) -> list[Axes]:
+    return list(np.atleast_1d(figure.subplots(count, 1)))
 
 
 def _shown(found: AxisDrive) -> dict[str, BalanceFit]:
@@ -65,8 +58,6 @@ def _shown(found: AxisDrive) -> dict[str, BalanceFit]:
 
 def _friction(ax: Axes, found: AxisDrive, records: Sequence[DriveRecord]) -> None:
     """Effort without that of the inertia over the velocity, and the laws."""
-    from elastogeo.report.drawing.style import BLUE, GREY, ORANGE
-
     fits = _shown(found)
     fit = next(iter(fits.values()))
     inertia = fit.determined.get("inertia", fit.known.get("inertia", 0.0))
@@ -87,15 +78,18 @@ def _friction(ax: Axes, found: AxisDrive, records: Sequence[DriveRecord]) -> Non
         )
     ax.set_ylim(*np.quantile(y, [0.002, 0.998]))
     ax.set_xlabel(f"velocity [{records[0].length_unit}/s]")
-    ax.set_ylabel(f"effort less inertia [{found.effort_unit}]")
+    ax.set_ylabel(f"{_quantity(found)} less inertia [{found.effort_unit}]")
     ax.set_title(f"{found.axis}: friction over velocity")
-    ax.legend(loc="upper left")
+    ax.legend(loc="lower right")  # no friction drives its axis forward
+
+
+def _quantity(found: AxisDrive) -> str:
+    """What is recorded of the motor."""
+    return _QUANTITIES.get(found.effort_unit, "effort")
 
 
 def _run(ax: Axes, found: AxisDrive, records: Sequence[DriveRecord]) -> None:
     """Measured and predicted effort through a run of middling error."""
-    from elastogeo.report.drawing.style import BLUE, INK, ORANGE
-
     scores = found.held_out or (found.left_out.scores if found.left_out else found.identified)
     score = sorted(scores, key=lambda s: s.rmse)[len(scores) // 2]
     record = next(r for r in records if r.run == score.run)
@@ -107,7 +101,7 @@ def _run(ax: Axes, found: AxisDrive, records: Sequence[DriveRecord]) -> None:
         predicted = law.balance.effort(record)
         predicted[~usable(record, law.model)] = np.nan
         ax.plot(record.time[part], predicted[part], color=colour, linewidth=0.9, label=name)
-    ax.set_ylabel(f"effort [{found.effort_unit}]")
+    ax.set_ylabel(f"{_quantity(found)} [{found.effort_unit}]")
     ax.set_xlabel("time [s]")
     ax.set_title(f"{found.axis}: {record.run}")
     low, high = ax.get_ylim()
@@ -117,8 +111,6 @@ def _run(ax: Axes, found: AxisDrive, records: Sequence[DriveRecord]) -> None:
 
 def _models(ax: Axes, found: AxisDrive) -> None:
     """Error at left-out runs of each model, the first one's as a line."""
-    from elastogeo.report.drawing.style import BLUE, FAINT, GREY, ORANGE, SMALL
-
     names = [model.name for model in found.models]
     errors = [model.left_out.rmse for model in found.models]
     colours = [FAINT if model.impossible else ORANGE if model.name == found.supported else BLUE for model in found.models]

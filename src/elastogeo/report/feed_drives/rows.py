@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from elastogeo.drive import EVERY_LOG, RunScore, Searched
 from elastogeo.identification.feed_drives import AxisDrive, DriveIdentification, rmse_of
+from elastogeo.report.drive_terms import term_name
 from elastogeo.report.numbers import said_estimate, significant, written_unit
 from elastogeo.report.text import combination
 
@@ -51,6 +52,11 @@ class ModelRow:
     better: str
 
 
+def identified(result: DriveIdentification) -> list[AxisDrive]:
+    """The axes whose every term has a number of its own."""
+    return [axis for axis in result.axes if axis.fit is not None and axis.fit.separated]
+
+
 def drive_rows(axis: AxisDrive) -> tuple[DriveRow, ...]:
     """The parameters of an axis; a sum of terms that are not told apart stands under all their names."""
     rows = []
@@ -61,7 +67,8 @@ def drive_rows(axis: AxisDrive) -> tuple[DriveRow, ...]:
             at_motor = f"{said_estimate(estimate)} {_UNIT_AT_MOTOR[unit]}"
         mixed = len(p.stands_for) > 1
         meaning = "not told apart" if mixed else p.meaning
-        rows.append(DriveRow(combination(p.stands_for), said_estimate(p.estimate), written_unit(p.unit), at_motor, meaning))
+        name = term_name(p.name) if not mixed else combination(p.stands_for)
+        rows.append(DriveRow(name, said_estimate(p.estimate), written_unit(p.unit), at_motor, meaning))
     return tuple(rows)
 
 

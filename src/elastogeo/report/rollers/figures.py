@@ -62,7 +62,7 @@ def stiffness_figure(found: StiffnessMap) -> Figure:
     ax.tick_params(axis="x", pad=0)
     ax.grid(color=FAINT, linewidth=0.7)
     ax.spines["polar"].set_color(FAINT)
-    ax.set_title("stiffness [N/µm]" + (", simulated" if found.joints.test.simulated else ""))
+    ax.set_title("stiffness [N/µm]" + (", simulated" if found.joints.test.simulated else ""), pad=18)
     figure.legend(loc="outside lower center", ncols=2)
     return figure
 
