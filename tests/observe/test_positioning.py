@@ -67,7 +67,7 @@ def test_a_rotary_table_is_read_about_its_own_axis() -> None:
     targets = tuple(np.deg2rad([0.0, 47.0, 101.0, 160.0, 222.0, 290.0, 355.0]))
     table = machine("wCFXYZt")
     test = moved(Positioning("C", targets=targets), {"E_CCc1": 2e-5, "E_CCs2": -1e-5, "B_CC": 4e-6}, table)
-    assert test.asked == ("E_[C]C[cs][12]", "B_[C]C")
+    assert test.asked == ("E_CC[cs][12]", "B_CC")
     found = identify(test)
     assert found["E_CCc1"].value == pytest.approx(2e-5, rel=1e-9)
     assert found["E_CCs2"].value == pytest.approx(-1e-5, rel=1e-9)
@@ -178,7 +178,7 @@ def test_a_scale_that_is_off_counts_for_the_whole_way() -> None:
 
 def test_one_direction_shows_no_backlash_and_is_not_asked_for_it() -> None:
     up = run_of([0.0, 10.0, 20.0, 30.0, 0.0, 10.0, 20.0, 30.0], direction=[1.0] * 8, deviation=[0.0, 1e-3, 2e-3, 3e-3] * 2)
-    assert Positioning("X").default_parameters([up]) == ("E_[X]X[1-3]",)
+    assert Positioning("X").default_parameters([up]) == ("E_XX[1-3]",)
 
 
 SPOILED = {

@@ -117,7 +117,7 @@ def test_the_picture_shows_readings_means_limits_and_spans(linear: PositioningRe
     (axes,) = figure.axes
     dots = [line for line in axes.get_lines() if line.get_linestyle() == "None"]
     assert sum(len(line.get_xdata()) for line in dots) == 60
-    means = next(line for line in axes.get_lines() if line.get_label() == "mean, approached in +")
+    means = next(line for line in axes.get_lines() if line.get_label() == "mean, +")
     np.testing.assert_allclose(means.get_ydata(), 1000 * linear.targets.mean[:, 0])
     spans = [text.get_text() for text in axes.texts if "=" in text.get_text()]
     assert [text[:2] for text in spans] == ["A ", "E ", "M "]

@@ -202,14 +202,15 @@ class Positioning(Setup):
         """The error motion that the sensor sees, to the third degree or as harmonics, and what it loses on reversal."""
         target = np.concatenate([self._columns(run)["target"] for run in runs])
         both = any(len(set(self._senses(run))) > 1 for run in runs)
-        letters = self._letters()
+        seen = self._letters()
+        letters = seen if len(seen) == 1 else f"[{seen}]"
         if self.is_rotary and np.ptp(target) > FULL_TURN * 2 * np.pi:
-            motion = f"E_[{letters}]{self.axis}[cs][12]"
+            motion = f"E_{letters}{self.axis}[cs][12]"
         else:
             least = 2 if len(self.own_to_run) > 1 else 1
             most = max(min(3, len(np.unique(distinct(target))) - 1), least)
-            motion = f"E_[{letters}]{self.axis}[{least}-{most}]"
-        return (motion, f"B_[{letters}]{self.axis}") if both else (motion,)
+            motion = f"E_{letters}{self.axis}[{least}-{most}]"
+        return (motion, f"B_{letters}{self.axis}") if both else (motion,)
 
     def facts(self) -> tuple[SetupFact, ...]:
         """The axis, where the others stand, how the sensor reads."""

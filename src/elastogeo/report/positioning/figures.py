@@ -49,7 +49,7 @@ def _side(ax: Axes, found: PositioningResults, scale: Scale, column: int, sign: 
         alpha=0.5,
         linewidth=0,
     )
-    ax.plot(place, mean, color=colour, linewidth=1.6, label=f"mean, approached in {name}")
+    ax.plot(place, mean, color=colour, linewidth=1.6, label=f"mean, {name}")
     if not np.isnan(limit).all():
         ax.plot(place, mean + limit, color=colour, linewidth=0.7)
         ax.plot(place, mean - limit, color=colour, linewidth=0.7, label=f"mean ± 2 s, {name}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from elastogeo.report.numbers import probability, significant
+from elastogeo.report.numbers import pretty, probability, significant
 from elastogeo.report.positioning.scale import ARCSEC
 from elastogeo.report.sentences import Facts, says
 from elastogeo.report.text import UM
@@ -91,4 +91,4 @@ def error_motion_followed(facts: Facts, passed: bool | None) -> str:
 
 def _size(value: float, facts: Facts) -> str:
     """A deviation in its unit."""
-    return f"{significant(value * ARCSEC)}″" if facts["angular"] else f"{significant(value * UM)} µm"
+    return pretty(f"{significant(value * ARCSEC)}″" if facts["angular"] else f"{significant(value * UM)} µm")
