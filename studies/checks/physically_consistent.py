@@ -105,7 +105,7 @@ def confirmed() -> Iterator[Cell]:
         drawn = Truth(with_values(TABLE_5_5, C_CCY=value))
         yield from judged(f"C_CCY = {value:g}: confirmed", LOADED, NOISES, drawn, counted=(SILENT,))
     drawn = Truth(with_values(TABLE_5_5, C_CCY=0.0))
-    yield from judged("C_CCY = 0: confirmed", LOADED, NOISES, drawn, short=40, counted=(SILENT,), most=0.05)
+    yield from judged("C_CCY = 0: confirmed", LOADED, NOISES, drawn, short=20, counted=(SILENT,), most=0.05)
 
 
 REST = tuple(noise for noise in NOISES if noise not in SMALL)

@@ -48,6 +48,7 @@ force_scatter = 0.002            # relative, from run to run
 [values]                         # true parameters, in mm, N, rad
 C_XXX = 6e-5
 C_YYY = 5e-5
+C_CCY = 1e-9
 E_XX1 = -1e-4
 """
 
