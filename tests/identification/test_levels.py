@@ -64,6 +64,10 @@ def test_forces_that_their_uncertainty_does_not_distinguish_are_refused(make_tes
     assert len(result.levels) == 1
     assert "All runs are at 49" in sentence_of(check)
     assert "Measure at two clearly different forces" in sentence_of(check)
+    assert checks["separated"].passed is False  # no verdict says that they cannot be distinguished, and that they are
+    assert checks["separated"].decisive
+    low, high = checks["separated"].facts["within"]
+    assert f"Only forces of one level, {low:g} to {high:g} N, separate" in sentence_of(checks["separated"])
 
 
 def test_levels_that_are_distinct_but_close_are_refused_by_their_separation(make_test: MakeTest) -> None:

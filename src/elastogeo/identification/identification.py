@@ -198,7 +198,7 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
         identifiable(result.confounding, by_default=not campaign.question.parameters),
         forces_distinct(systems.applied, both) if elastic_sources else None,
         geometry_modelled(systems.sources, reference, bool(around)) if elastic_sources and _goes_around(systems) else None,
-        separated(parameters) if both else None,
+        separated(parameters, systems.applied) if both else None,
         conditioned(result.confounding),
         residuals_unstructured(harmonics, shared, result.rmse) if around else None,
         uncertainty_by_run(result.by_run, runs, reference, needed),

@@ -88,10 +88,14 @@ def free_of_assumptions(budget: Budget) -> Check | None:
     return Check("free of assumptions", not depends, {"assumed": tuple(assumed), "depends": depends})
 
 
-def separated(parameters: Sequence[Parameter]) -> Check:
-    """Whether compliance and geometry are told apart."""
+def separated(parameters: Sequence[Parameter], levels: ForceLevels) -> Check:
+    """Whether compliance and geometry are told apart, by more than differences of force within one level."""
     mixed = tuple(tuple(parameter.stands_for) for parameter in parameters if not parameter.separated)
-    return Check("separated", not mixed, {"mixed": mixed, "combinations": len(parameters)}, decisive=bool(mixed))
+    alone = levels.members[0] if len(levels.members) == 1 else ()
+    within = (alone[0], alone[-1]) if alone and alone[0] < alone[-1] else None
+    passed = not mixed and within is None
+    facts = {"mixed": mixed, "combinations": len(parameters), "within": within}
+    return Check("separated", passed, facts, decisive=not passed)
 
 
 def uncertainty_by_run(by_run: bool, runs: int, reference: bool, needed: int | None) -> Check:

@@ -99,6 +99,12 @@ def separated(facts: Facts, passed: bool | None) -> str:
     mixed = facts["mixed"]
     if passed:
         return "Compliance and geometry are separated: no combination mixes the two."
+    if not mixed:
+        low, high = facts["within"]
+        return (
+            f"Only forces of one level, {low:g} to {high:g} N, separate compliance and geometry: they differ by less than "
+            f"their uncertainty. Measure at two clearly different forces."
+        )
     sums = "; ".join(" with ".join(names) for names in mixed)
     return (
         f"Compliance and geometry cannot be separated in {len(mixed)} of {facts['combinations']} combinations ({sums}): the "
