@@ -7,6 +7,7 @@ from textwrap import wrap
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
 
 from elastogeo.identification import Identification, Pattern
 from elastogeo.report.drawing.circles import is_angular, ring
@@ -50,7 +51,7 @@ def _around(ax: Axes, pattern: Pattern) -> None:
         kept = np.maximum(radius, _NOMINAL) if outward else np.minimum(radius, _NOMINAL)
         xs = np.concatenate([kept * np.cos(angle), (_NOMINAL * np.cos(angle))[::-1]])
         ys = np.concatenate([kept * np.sin(angle), (_NOMINAL * np.sin(angle))[::-1]])
-        ax.fill(xs, ys, color=colour, alpha=0.22, linewidth=0, zorder=2)
+        ax.add_artist(Polygon(np.column_stack([xs, ys]), color=colour, alpha=0.22, linewidth=0, zorder=2))
     closed = np.arange(len(angle) + 1) % len(angle) if np.ptp(angle) > 1.9 * np.pi else np.arange(len(angle))
     ax.plot((radius * np.cos(angle))[closed], (radius * np.sin(angle))[closed], color=INK, linewidth=1.1, zorder=3)
     ax.set_xlim(-limit, limit)
