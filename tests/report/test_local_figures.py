@@ -192,3 +192,15 @@ def test_readings_that_go_around_no_circle_have_the_same_figures(example, pictur
     assert set(drawn) == pictures
     assert all(ax.lines for name in drawn for ax in drawn[name].axes)
     assert GREY not in {line.get_color() for line in drawn["parts"].axes[0].lines}
+
+
+def test_local_values_stand_over_their_forces_with_their_uncertainty(separated) -> None:
+    panels = {ax.get_title(loc="left"): ax for ax in figure(separated, "local").axes}
+    (ends,) = (line for line in panels["C_XXX"].lines if line.get_marker() == "_")
+    (dots,) = (line for line in panels["C_XXX"].lines if line.get_marker() == "o")
+    found = [local.solution.estimate("C_XXX") for local in separated.local]
+    assert list(dots.get_xdata()) == [np.mean(local.forces) for local in separated.local]
+    assert dots.get_ydata() == pytest.approx([1e6 * one.value for one in found])
+    low, high = np.split(np.asarray(ends.get_ydata()), 2)
+    assert (high - low) / 2 == pytest.approx([1e6 * one.standard_uncertainty for one in found])
+    assert (high + low) / 2 == pytest.approx(dots.get_ydata())

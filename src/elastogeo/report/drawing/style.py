@@ -101,7 +101,7 @@ def panels(
     between: float = 0.0,
     one_scale: bool = False,
 ) -> Figure:
-    """A figure of panels at places for which nothing has to be measured: it takes a third of the time of `grid`.
+    """A figure of panels at places for which nothing has to be measured: it takes two thirds of the time of `grid`.
 
     Parameters
     ----------
@@ -120,6 +120,33 @@ def panels(
     figure = Figure(figsize=(WIDTH, whole))
     figure.subplots(rows, columns, sharex=one_scale, sharey=one_scale, squeeze=False, gridspec_kw={**places, **apart})
     return figure
+
+
+def multiples(
+    count: int, columns: int, height: float, above: float, xlabel: str, ylabel: str = "", sharey: bool = False
+) -> tuple[Figure, list[Axes]]:
+    """Small multiples as `panels`, and their `count` axes, with one label for all their axes.
+
+    Parameters
+    ----------
+    count, columns : int
+    height, above : float [in]
+        Of a panel, and of its title.
+    xlabel, ylabel : str
+    sharey : bool
+    """
+    columns = min(columns, count)
+    rows = -(-count // columns)
+    beside = (0.5 if sharey else 0.6) + (0.2 / columns if ylabel else 0.0)
+    figure = panels(rows, columns, height, beside, above, below=0.48, between=above + 0.24)
+    for spare in figure.axes[count:]:
+        spare.remove()
+    if sharey:
+        for ax in figure.axes[1:]:
+            ax.sharey(figure.axes[0])
+    figure.text(0.5, 0.04 / figure.get_figheight(), xlabel, ha="center", va="bottom")
+    figure.text(0.012, 0.5, ylabel, rotation=90, ha="left", va="center")
+    return figure, list(figure.axes)
 
 
 def grid(count: int, columns: int, height: float, sharey: bool = False) -> tuple[Figure, list[Axes]]:

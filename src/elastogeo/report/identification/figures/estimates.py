@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from elastogeo.estimate import Repeatability
 from elastogeo.identification import Identification, VariableCompliance
 from elastogeo.machine import Array
-from elastogeo.report.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, SMALL, grid
+from elastogeo.report.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, SMALL, multiples
 from elastogeo.report.numbers import DisplayUnit
 from elastogeo.report.text import display_units, label, labels
 
@@ -22,23 +22,15 @@ _LONG = 12
 def local_figure(result: Identification) -> Figure:
     """Local estimates with standard uncertainties against the global one (4.13), and the linear model (5.15, 5.16)."""
     shown = display_units(result)
-    figure, axes = grid(len(result.parameters), 3 if len(result.parameters) != 4 else 2, 1.85)
+    over = "" if result.reference_force is None else f" over {result.reference_force:g} N"
+    figure, axes = _small(list(labels(result).values()), f"force{over} (N)")
     for ax, parameter in zip(axes, result.parameters, strict=True):
         unit = shown[parameter.name]
         _whole(ax, parameter.value * unit.factor, np.array(parameter.interval or (parameter.value,) * 2) * unit.factor)
-        for local in result.local:
-            k = local.solution.labels.index(parameter.name)
-            value = local.solution.values[k] * unit.factor
-            half = local.solution.standard_uncertainty[k] * unit.factor
-            middle = sum(local.forces) / len(local.forces)
-            ax.plot([min(local.forces), max(local.forces)], [value, value], color=BLUE, linewidth=0.8, alpha=0.6)
-            ax.plot([middle, middle], [value - half, value + half], color=BLUE, linewidth=1.2, marker="_", markersize=5)
-            ax.plot([middle], [value], color=BLUE, marker="o", markersize=3.5)
+        _local(ax, [local.forces for local in result.local], *_of(result, parameter.name, unit.factor))
         if result.variable is not None:
             _linear(ax, result.variable, parameter.name, [level.force for level in result.levels], unit.factor)
         _label(ax, label(parameter), unit)
-    over = "" if result.reference_force is None else f" over {result.reference_force:g} N"
-    figure.supxlabel(f"force{over} (N)", fontsize=8.5)
     return figure
 
 
@@ -47,15 +39,37 @@ def repeats_figure(result: Identification, repeats: Repeatability) -> Figure:
     shown = display_units(result)
     shown_as = labels(result)
     solution, bounds = repeats.solution, repeats.solution.interval()
-    figure, axes = grid(len(solution.labels), 3 if len(solution.labels) != 4 else 2, 1.85)
+    figure, axes = _small([shown_as[name] for name in solution.labels], "combination of one run per level")
     number = np.arange(1, len(repeats.combinations) + 1)
     for k, (ax, name) in enumerate(zip(axes, solution.labels, strict=True)):
         unit = shown[name]
         _whole(ax, solution.values[k] * unit.factor, bounds[k] * unit.factor)
         ax.plot(number, repeats.combinations[:, k] * unit.factor, color=BLUE, marker="o", markersize=2.8, linestyle="")
         _label(ax, shown_as[name], unit)
-    figure.supxlabel("combination of one run per level", fontsize=8.5)
     return figure
+
+
+def _of(result: Identification, name: str, factor: float) -> tuple[Array, Array]:
+    """Local values of a parameter and their standard uncertainties."""
+    k = result.solution.labels.index(name)
+    values = [(local.solution.values[k], local.solution.standard_uncertainty[k]) for local in result.local]
+    return np.array(values)[:, 0] * factor, np.array(values)[:, 1] * factor
+
+
+def _local(ax: Axes, forces: Sequence[Sequence[float]], values: Array, halves: Array) -> None:
+    """Local estimates over the forces that they come from."""
+    middle = [sum(some) / len(some) for some in forces]
+    ax.hlines(values, [min(some) for some in forces], [max(some) for some in forces], color=BLUE, linewidth=0.8, alpha=0.6)
+    ax.vlines(middle, values - halves, values + halves, color=BLUE, linewidth=1.2)
+    ends = [*(values - halves), *(values + halves)]
+    ax.plot([*middle, *middle], ends, color=BLUE, linestyle="", marker="_", markersize=5, markeredgewidth=1.2)
+    ax.plot(middle, values, color=BLUE, marker="o", markersize=3.5, linestyle="")
+
+
+def _small(names: Sequence[str], xlabel: str) -> tuple[Figure, list[Axes]]:
+    """A panel for each of some parameters."""
+    above = 0.4 if any(len(name) > _LONG for name in names) else 0.25
+    return multiples(len(names), 3 if len(names) != 4 else 2, 1.36, above, xlabel)
 
 
 def _linear(ax: Axes, model: VariableCompliance, name: str, forces: Sequence[float], factor: float) -> None:

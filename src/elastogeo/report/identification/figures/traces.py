@@ -31,7 +31,7 @@ from elastogeo.report.drawing.style import (
     SMALL,
     direction_colours,
     force_colours,
-    grid,
+    multiples,
     new_figure,
     thinned,
 )
@@ -65,10 +65,11 @@ def local_traces_figure(result: Identification) -> Figure:
 def residuals_figure(result: Identification) -> Figure:
     """Measured minus predicted readings of every level."""
     levels = [level.force for level in result.levels]
-    figure, axes = grid(len(levels), 2 if len(levels) > 3 else 1, 1.25 if len(levels) > 1 else 2.0, sharey=True)
-    unit = reading_unit(result)
-    largest = max(float(np.abs(t.measured - t.predicted).max()) for t in result.traces) * unit.factor or 1.0
     label, factor = pose_axis(result)
+    unit = reading_unit(result)
+    columns, height = 2 if len(levels) > 3 else 1, 0.8 if len(levels) > 1 else 1.4
+    figure, axes = multiples(len(levels), columns, height, 0.22, label, f"measured − predicted ({unit.name})", sharey=True)
+    largest = max(float(np.abs(t.measured - t.predicted).max()) for t in result.traces) * unit.factor or 1.0
     for ax, level in zip(axes, result.levels, strict=True):
         for trace, again in of_level(result.traces, level.force):
             pose, left = thinned(trace.pose, (trace.measured - trace.predicted) * unit.factor, len(result.traces))
@@ -82,8 +83,6 @@ def residuals_figure(result: Identification) -> Figure:
         if is_angular(result):
             ax.xaxis.set_major_locator(MultipleLocator(90))
         ax.margins(x=0.01)
-    figure.supxlabel(label, fontsize=8.5)
-    figure.supylabel(f"measured − predicted ({unit.name})", fontsize=8.5)
     return figure
 
 
