@@ -11,7 +11,8 @@ import pytest
 
 from elastogeo.formats import example_test, read_test
 from elastogeo.identification import identify
-from elastogeo.observe import Question
+from elastogeo.machine import Machine, parse_topology
+from elastogeo.observe import Imperfection, MachineTest, Positioning, Question, Run
 from elastogeo.report import html_page, view_of
 from elastogeo.report.drawing.style import GREEN, GREY, INK
 from elastogeo.sources import simulate
@@ -204,3 +205,88 @@ def test_local_values_stand_over_their_forces_with_their_uncertainty(separated) 
     low, high = np.split(np.asarray(ends.get_ydata()), 2)
     assert (high - low) / 2 == pytest.approx([1e6 * one.standard_uncertainty for one in found])
     assert (high + low) / 2 == pytest.approx(dots.get_ydata())
+
+
+@pytest.fixture(scope="module")
+def reconstructed():
+    """The thesis's real test, from its printed tables."""
+    return identify(read_test(example_test().parent / "hermle-c50-reconstructed"))
+
+
+FIGURES_5_9_AND_5_10 = {
+    "C_XXX": "0.045",
+    "C_YYY": "0.034",
+    "C_XYX": "0.00058",
+    "C_CXY": "0.0022",
+    "C_CYY": "0.0014",
+    "C_CCY": "0.0045",
+    "E_XX1": "0.019",
+    "E_YY1": "0.014",
+    "E_YX2": "0.0074",
+    "E_XY2": "0.012",
+    "E_C(0Y)X": "0.00017",
+}
+"""Peak to peak [mm] at 742 N of the global parameters, as printed in 5.7.1."""
+
+FIGURES_5_13_AND_5_14 = {
+    "C_XXX": "0.048",
+    "C_YYY": "0.036",
+    "C_XYX": "0.0018",
+    "C_CXY": "0.0064",
+    "C_CYY": "0.001",
+    "C_CCY": "0.0036",
+    "E_XX1": "0.022",
+    "E_YY1": "0.017",
+    "E_YX2": "0.012",
+    "E_XY2": "0.014",
+    "E_C(0Y)X": "0.00082",
+}
+"""The same of the local parameters of 616 and 742 N, as printed in 5.7.2."""
+
+
+def prints_as(value: float, printed: str) -> bool:
+    """Whether a value [mm] is within 5 % of one that prints as this, rounded or cut off."""
+    unit = 10.0 ** -len(printed.partition(".")[2])
+    return 0.95 * (float(printed) - unit / 2) <= value <= 1.05 * (float(printed) + unit)
+
+
+def test_parts_are_those_of_figures_5_9_to_5_14(reconstructed) -> None:
+    spans = {"-": {}, ":": {}}
+    for ax in figure(reconstructed, "parts").axes:
+        lines = [line for line in ax.lines if line.get_color() != INK]
+        names = [text.get_text().partition(",")[0] for text in ax.get_legend().get_texts()]
+        for name, whole, local in zip(names, lines[::2], lines[1::2], strict=True):
+            spans["-"][name] = np.ptp([0.0, *whole.get_ydata()]) / 1000
+            spans[":"][name] = np.ptp([0.0, *local.get_ydata()]) / 1000
+    assert {n: v for n, v in spans["-"].items() if not prints_as(v, FIGURES_5_9_AND_5_10[n])} == {}
+    assert {n: v for n, v in spans[":"].items() if not prints_as(v, FIGURES_5_13_AND_5_14[n])} == {}
+    assert set(spans["-"]) == set(FIGURES_5_9_AND_5_10)
+
+
+def test_local_geometry_varies_by_half_of_the_global_one_as_figure_5_12_says(reconstructed) -> None:
+    """At most 0.0085 mm beside 0.019 mm in the thesis; 7.8 um beside 19.1 um of its traces."""
+    title = figure(reconstructed, "local-separation").axes[2].get_title()
+    assert 0.85 * 8.5 < float(re.search(r"by up to ([\d.]+) µm", title)[1]) < 8.5
+    title = figure(reconstructed, "separation").axes[2].get_title()
+    assert prints_as(float(re.search(r"([\d.]+) µm peak to peak", title)[1]) / 1000, "0.019")
+
+
+def test_a_linear_compliance_explains_what_the_reconstruction_says(reconstructed) -> None:
+    """0.917 um with thirteen parameters, 0.655 um with nineteen (shared reference, "Fewer parameters explain more")."""
+    table = tables(reconstructed, "Does anything change")["Fit by constant, linear and local compliance"]
+    assert table.rows[-1][:3] == ("all", "0.917", "0.655")
+    fits = np.array([[number(cell) for cell in row[4:]] for row in table.rows[:-1]])
+    assert (fits[:, 2] > fits[:, 0]).all()
+
+
+def test_readings_that_are_angles_are_shown_as_angles() -> None:
+    machine = Machine("mill", parse_topology("wFXYZt"), tool=(0.0, 0.0, -50.0))
+    setup = Positioning("X", about=(0.0, 1.0, 0.0), targets=(-190.0, -120.0, -35.0, 42.0, 117.0, 180.0))
+    blank = MachineTest("angles", machine, setup, (Run("run", {}),), Question(("E_BX1",)))
+    result = identify(simulate(blank, {"E_BX1": 2e-7}, Imperfection(angle_noise=4e-7), 1, exact=False))
+    drawn = figure(result, "parts")
+    assert "deviation (µrad)" in [text.get_text() for text in drawn.texts]
+    (entry,) = (text.get_text() for text in drawn.axes[0].get_legend().get_texts())
+    assert entry.endswith(" µrad")
+    solid = next(line for line in drawn.axes[0].lines if line.get_color() != INK)
+    assert np.ptp(solid.get_ydata()) == pytest.approx(370 * 0.2, rel=0.1)

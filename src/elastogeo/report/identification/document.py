@@ -106,7 +106,7 @@ def identification_json(result: Identification) -> dict[str, Any]:
             **confounding_entries(result.confounding),
             "rmse_um": in_um(None if len(angular) == len(result.tests) else result.rmse),
             "levels": [_level(level, separated, level.test in angular) for level in result.levels],
-            "linear": None if result.variable is None else _linear(result.variable),
+            "linear": None if result.variable is None else _linear(result.variable, bool(angular)),
             "local": [_local(local) for local in result.local],
             "local_change": None if result.local_change is None else change_entry(result.local_change),
             "models": None if result.models is None else _models(result.models),
@@ -217,21 +217,21 @@ def _level(level: Level, separated: bool, angular: bool) -> dict[str, Any]:
         "fitness_percent": level.fitness,
         "elastic_um": [bound * UM for bound in level.elastic] if separated else None,
         "geometric_um": [bound * UM for bound in level.geometric] if separated else None,
-        "linear": None if level.variable is None else _fit(level.variable),
-        "local": None if level.local is None else _fit(level.local),
+        "linear": None if level.variable is None else _fit(level.variable, angular),
+        "local": None if level.local is None else _fit(level.local, angular),
     }
 
 
-def _fit(fit: Fit) -> dict[str, Any]:
-    return {"rmse_um": fit.rmse * UM, "fitness_percent": fit.fitness}
+def _fit(fit: Fit, angular: bool) -> dict[str, Any]:
+    return {"rmse_um": in_um(None if angular else fit.rmse), "fitness_percent": fit.fitness}
 
 
-def _linear(model: VariableCompliance) -> dict[str, Any]:
+def _linear(model: VariableCompliance, angular: bool) -> dict[str, Any]:
     solution = model.solution
     return {
         "compliances": model.elastic,
         "by_run": model.by_run,
-        "rmse_um": model.rmse * UM,
+        "rmse_um": in_um(None if angular else model.rmse),
         "values": [
             {
                 "name": name,

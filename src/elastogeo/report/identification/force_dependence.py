@@ -8,7 +8,7 @@ from elastogeo.identification import Fit, Identification, Parameter, VariableCom
 from elastogeo.report.identification.pictures import picture
 from elastogeo.report.identification.words import change_words
 from elastogeo.report.numbers import DisplayUnit, pretty, significant, value_with_uncertainty
-from elastogeo.report.text import all_separated, display_units, in_micrometres, label
+from elastogeo.report.text import all_separated, display_units, label, reading_unit
 from elastogeo.report.view import Picture, Section, Table
 
 NONE = "–"
@@ -62,18 +62,19 @@ def _linear_row(p: Parameter, unit: DisplayUnit, model: VariableCompliance, low:
 
 def fit_table(result: Identification) -> Table:
     """RMSE and fitness of each force level by the global estimate, the linear model and the local estimates (Table 5.9)."""
+    unit = reading_unit(result)
     rows = [
-        (f"{level.force:.4g}", *_fits(Fit(level.rmse, level.fitness), level.variable, level.local))
+        (f"{level.force:.4g}", *_fits(unit.factor, Fit(level.rmse, level.fitness), level.variable, level.local))
         for level in result.levels
     ]
-    whole = None if result.variable is None else in_micrometres(result.variable.rmse)
-    rows.append(("all", in_micrometres(result.rmse), whole or NONE, NONE, NONE, NONE, NONE))
+    whole = NONE if result.variable is None else significant(result.variable.rmse * unit.factor)
+    rows.append(("all", significant(result.rmse * unit.factor), whole, NONE, NONE, NONE, NONE))
     return Table(
         (
             "force [N]",
-            "RMSE, constant [µm]",
-            "linear [µm]",
-            "local [µm]",
+            f"RMSE, constant [{unit.name}]",
+            f"linear [{unit.name}]",
+            f"local [{unit.name}]",
             "fitness, constant [%]",
             "linear [%]",
             "local [%]",
@@ -86,8 +87,8 @@ def fit_table(result: Identification) -> Table:
     )
 
 
-def _fits(*fits: Fit | None) -> tuple[str, ...]:
+def _fits(factor: float, *fits: Fit | None) -> tuple[str, ...]:
     return (
-        *(NONE if fit is None else in_micrometres(fit.rmse) for fit in fits),
+        *(NONE if fit is None else significant(fit.rmse * factor) for fit in fits),
         *(NONE if fit is None or fit.fitness is None else significant(fit.fitness, 4) for fit in fits),
     )

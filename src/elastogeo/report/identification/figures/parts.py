@@ -17,7 +17,7 @@ from elastogeo.report.drawing.style import BLUE, GREEN, GREY, INK, ORANGE, SMALL
 from elastogeo.report.identification.figures.separation import responses_by_force
 from elastogeo.report.identification.figures.traces import broken
 from elastogeo.report.numbers import pretty, significant
-from elastogeo.report.text import UM, all_separated, label
+from elastogeo.report.text import all_separated, label, reading_unit
 
 _COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7", "#e69f00", "#56b4e9", "#8c6bb1")
 _SMALL_PART = 0.25
@@ -31,7 +31,7 @@ _LETTERS, _LONGEST, _BESIDE_NAME = 92, 30, 13
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """The trace of one parameter [µm]; by the local estimate too, where there is one."""
+    """The trace of one parameter, in the unit of the readings; by the local estimate too, where there is one."""
 
     name: str
     values: Array
@@ -59,22 +59,22 @@ def parts_figure(result: Identification) -> Figure:
     per_line = max(_LETTERS // columns // longest, 1)
     legend = _LINE * -(-entries // per_line)
     figure = panels(rows, columns, 1.55, beside=0.62, above=0.25, below=legend + 0.5, between=legend + 0.6)
-    name, factor = pose_axis(result)
+    (name, factor), unit = pose_axis(result), reading_unit(result).name
     for ax, (title, parts) in zip(figure.axes, kinds, strict=False):
-        _panel(ax, pose * factor, title, parts, per_line)
+        _panel(ax, pose * factor, title, parts, per_line, unit)
         if is_angular(result):
             ax.xaxis.set_major_locator(MultipleLocator(90))
     for spare in figure.axes[len(kinds) :]:
         spare.remove()
     figure.text(0.5, 0.04 / figure.get_figheight(), name, ha="center", va="bottom")
     loaded = f" at {force:.4g} N" if force else ""
-    figure.text(0.02, 0.5, f"deviation{loaded} (µm)", rotation=90, ha="left", va="center")
+    figure.text(0.02, 0.5, f"deviation{loaded} ({unit})", rotation=90, ha="left", va="center")
     return figure
 
 
 def _by_kind(result: Identification, force: float) -> dict[str, list[_Part]]:
     """The parts of compliance and of geometry; of all together, where the two are not told apart."""
-    columns = responses_by_force(result)[force].columns * UM
+    columns = responses_by_force(result)[force].columns * reading_unit(result).factor
     local = next((one.solution.values for one in reversed(result.local) if force in one.forces), None)
     kinds: dict[str, list[_Part]] = {}
     for k, p in enumerate(result.parameters):
@@ -92,9 +92,9 @@ def _by_size(parts: Sequence[_Part]) -> list[tuple[str, list[_Part]]]:
     return [("greatest parts", great), ("smaller parts", small)] if small else [("", great)]
 
 
-def _panel(ax: Axes, pose: Array, title: str, parts: Sequence[_Part], per_line: int) -> None:
+def _panel(ax: Axes, pose: Array, title: str, parts: Sequence[_Part], per_line: int, unit: str) -> None:
     for part, colour in zip(parts, _COLOURS, strict=False):
-        said = pretty(f"{part.name}, {significant(part.span)} µm")
+        said = pretty(f"{part.name}, {significant(part.span)} {unit}")
         ax.plot(*broken(pose, part.values), color=colour, label=said)
         if part.local is not None:
             ax.plot(*broken(pose, part.local), color=colour, linewidth=1.0, linestyle=_LOCAL)

@@ -26,7 +26,7 @@ from elastogeo.report.drawing.circles import (
 from elastogeo.report.drawing.style import SMALL, force_colours, panels
 from elastogeo.report.identification.figures.traces import broken
 from elastogeo.report.numbers import significant
-from elastogeo.report.text import UM, all_separated
+from elastogeo.report.text import all_separated, reading_unit
 
 _PARTS = ("compliance and geometry", "compliance alone", "geometry alone")
 
@@ -60,7 +60,9 @@ def separation_figure(result: Identification) -> Figure:
     lines = [_line(result, f"{f:.4g} N", colours[f], one, result.solution.values) for f, one in first.items()]
     last = max(first, key=abs)
     strongest = lines[list(first).index(last)]
-    spans = (f"{significant(float(np.ptp(part)) * UM)} µm peak to peak at {last:.4g} N" for part in strongest.parts)
+    unit = reading_unit(result)
+    sizes = (significant(float(np.ptp(part)) * unit.factor) for part in strongest.parts)
+    spans = (f"{size} {unit.name} peak to peak at {last:.4g} N" for size in sizes)
     return _figure(result, lines, [f"{what}\n{span}" for what, span in zip(_PARTS, spans, strict=True)])
 
 
@@ -74,8 +76,9 @@ def local_separation_figure(result: Identification) -> Figure:
     ]
     titles = list(_PARTS)
     if all(np.array_equal(line.pose, lines[0].pose) for line in lines):
-        differ = significant(float(np.ptp([line.parts[2] for line in lines], axis=0).max()) * UM)
-        titles[2] += f"\nlocal estimates differ by up to {differ} µm"
+        unit = reading_unit(result)
+        differ = significant(float(np.ptp([line.parts[2] for line in lines], axis=0).max()) * unit.factor)
+        titles[2] += f"\nlocal estimates differ by up to {differ} {unit.name}"
     return _figure(result, lines, titles)
 
 
@@ -128,11 +131,11 @@ def _around(axes: Sequence[Axes], result: Identification, lines: Sequence[_Line]
 
 
 def _along(axes: Sequence[Axes], result: Identification, lines: Sequence[_Line]) -> str:
-    label, factor = pose_axis(result)
+    (label, factor), unit = pose_axis(result), reading_unit(result)
     for k, ax in enumerate(axes):
         for line in lines:
-            pose, values = broken(line.pose, line.parts[k] * UM)
+            pose, values = broken(line.pose, line.parts[k] * unit.factor)
             ax.plot(pose * factor, values, color=line.colour)
         ax.set_xlabel(label)
-    axes[0].set_ylabel("deviation (µm)")
+    axes[0].set_ylabel(f"deviation ({unit.name})")
     return ""
