@@ -63,7 +63,7 @@ def test_two_lines_answer_on_one_screen() -> None:
     assert len(lines) < 40
     assert lines[-1].startswith("C_XXX = 61.9")
     assert lines[-1].endswith("nm/N (95 %)")
-    assert "physically consistent" in done.stdout
+    assert "residuals without structure" in done.stdout
 
 
 def test_a_parameter_is_an_estimate_with_its_unit(result: Identification) -> None:
@@ -175,4 +175,4 @@ def test_a_test_is_compared_as_it_is_and_a_result_is_not_asked_again(result: Ide
 def test_a_check_prints_as_a_sentence_with_its_mark(result: Identification) -> None:
     shown = {check.name: str(check) for check in result.verdict}
     assert shown["identifiable"] == "  ok  identifiable: All 13 parameters are determined by the test."
-    assert shown["above resolution"].startswith("look  above resolution: E_C(0Y)X")
+    assert shown["above resolution"].startswith("look  above resolution: C_CCY")

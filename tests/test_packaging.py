@@ -29,7 +29,7 @@ def test_the_wheel_holds_what_a_user_needs_and_nothing_else(wheel: Path) -> None
     files = {path.relative_to(source).as_posix() for path in source.rglob("*") if path.is_file() and path.suffix != ".pyc"}
     assert {f"elastogeo/{name}" for name in files} <= set(names)
     assert "elastogeo/py.typed" in names
-    assert "elastogeo/examples/hermle-c50-ldbb/test.toml" in names
+    assert "elastogeo/examples/hermle-c50-reconstructed/test.toml" in names
 
 
 def new_environment(folder: Path) -> tuple[Path, Path]:

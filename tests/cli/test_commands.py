@@ -96,10 +96,10 @@ def test_machines(elastogeo):
     assert [m["topology"] for m in json.loads(elastogeo("machines", "--json")[1])["machines"]] == ["wCAFYXZSt", "wCAYFXZt"]
 
 
-def test_the_demo_writes_its_report_and_says_that_it_is_simulated(tmp_path, elastogeo):
+def test_the_demo_writes_its_report_and_says_what_its_readings_are(tmp_path, elastogeo):
     code, out, _ = elastogeo("demo", "--report", tmp_path / "r")
     assert code == 0
-    assert "Not measured: simulated from" in out
+    assert "neither measured by us nor simulated" in out
     assert str(tmp_path / "r" / "report.html") in out.replace("\n", "")
     names = {path.name for path in (tmp_path / "r").rglob("*.svg")}
     assert len(names) >= 5

@@ -44,7 +44,7 @@ def test_a_file_read_back_is_the_same(tmp_path: Path) -> None:
 def named(tmp_path: Path, more: str = "") -> Path:
     """The shipped example with its calibration in a file of its own."""
     folder = tmp_path / "t"
-    shutil.copytree(example_test(), folder)
+    shutil.copytree(example_test().with_name("hermle-c50-ldbb"), folder)
     text = (folder / "test.toml").read_text()
     start, end = text.index("[setup.calibration]"), text.index("[question]")
     text = text[:start] + text[end:]

@@ -150,8 +150,14 @@ def test_the_examples_are_reproduced_byte_for_byte(example, runs, tmp_path):
     assert "0 differ" in done.stdout
 
 
-def test_the_example_says_that_it_is_simulated_and_from_what():
+def test_the_example_says_that_it_is_reconstructed_and_from_what():
     test = read_test(example_test())
+    assert "Tables 5.7, 5.8 and 4.7" in test.reconstructed
+    assert test.simulated == ""
+
+
+def test_the_simulated_example_says_that_it_is_simulated_and_from_what():
+    test = read_test(example_test().with_name("hermle-c50-ldbb"))
     assert "Not measured: simulated from" in test.simulated
     assert "Tables 5.5 and 5.6" in test.simulated
     assert sorted({run.pressure for run in test.runs}) == [0.4, 1, 2, 3, 4, 5, 6]

@@ -17,7 +17,7 @@ def demo(
 ) -> None:
     """Identify the example test and write its report.
 
-    It is a simulated loaded ball bar test of a five-axis machine at seven forces.
+    It is a loaded ball bar test at six forces, rebuilt from a thesis's tables.
 
     \b
     Example:

@@ -29,7 +29,7 @@ from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, check_
 
 SCHEMA = "elastogeo.test/1"
 FILE_NAME = "test.toml"
-EXAMPLE = "hermle-c50-ldbb"
+EXAMPLE = "hermle-c50-reconstructed"
 _SENSES = {"ccw": 1, "cw": -1}
 
 ReadRun = Callable[[Path], Table]
