@@ -207,6 +207,16 @@ def test_local_values_stand_over_their_forces_with_their_uncertainty(separated) 
     assert (high + low) / 2 == pytest.approx(dots.get_ydata())
 
 
+def test_the_table_of_local_estimates(falling) -> None:
+    """Where a falling compliance is taken for a constant, each pair of levels sees the chord, C0 + C1 (F1 + F2)."""
+    table = tables(falling, "Does anything change")["Local estimates"]
+    assert table.headings[2:] == ("100 and 300 N", "300 and 500 N", "500 and 700 N")
+    row = next(row for row in table.rows if row[0] == "C_XXX")
+    assert [number(cell) for cell in row[2:]] == pytest.approx(
+        [62 - 0.02 * 400, 62 - 0.02 * 800, 62 - 0.02 * 1200], abs=0.06
+    )
+
+
 @pytest.fixture(scope="module")
 def reconstructed():
     """The thesis's real test, from its printed tables."""

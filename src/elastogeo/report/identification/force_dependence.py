@@ -21,7 +21,8 @@ def force_section(result: Identification) -> Section:
         "they scatter, the machine is not linear, or something that does not depend on the force counts as compliance.",
         *change_words(result),
     )
-    tables = (*([] if result.variable is None else [linear_table(result, result.variable)]), fit_table(result))
+    linear = [] if result.variable is None else [linear_table(result, result.variable)]
+    tables = (local_table(result), *linear, fit_table(result))
     return Section("Does anything change with the force?", tuple(map(pretty, paragraphs)), tuple(_pictures(result)), tables)
 
 
@@ -30,6 +31,27 @@ def _pictures(result: Identification) -> Iterator[Picture]:
     if {p.elastic for p in result.parameters if p.axis} == {True, False} and all_separated(result):
         yield picture("local-separation", result)
     yield picture("local-traces", result)
+
+
+def local_table(result: Identification) -> Table:
+    """Each parameter by each pair of neighbouring levels (Tables 4.7, 5.7, 5.8)."""
+    units = display_units(result)
+    pairs = [f"{' and '.join(f'{force:.4g}' for force in local.forces)} N" for local in result.local]
+    rows = tuple(
+        (
+            pretty(label(p)),
+            units[p.name].name,
+            *(pretty(significant(one.solution.values[k] * units[p.name].factor)) for one in result.local),
+        )
+        for k, p in enumerate(result.parameters)
+    )
+    return Table(
+        ("parameter", "unit", *pairs),
+        rows,
+        words=(0, 1),
+        title="Local estimates (Tables 4.7, 5.7, 5.8)",
+        note="The figure shows their standard uncertainties; close levels make them large.",
+    )
 
 
 def linear_table(result: Identification, model: VariableCompliance) -> Table:
