@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
-from functools import cache
+from functools import cache, lru_cache
 from types import MappingProxyType
 
 from elastogeo.errors import SelectionError
@@ -88,6 +88,12 @@ def select_sources(machine: Machine, patterns: Iterable[str]) -> tuple[Source, .
     SelectionError
         If one of them selects nothing or is empty, or there is none.
     """
+    return _selected(machine, tuple(patterns))
+
+
+@lru_cache(maxsize=256)
+def _selected(machine: Machine, patterns: tuple[str, ...]) -> tuple[Source, ...]:
+    """As `select_sources`: the tests of a campaign ask for the same again and again."""
     known = catalogue(machine)
     selected: dict[str, Source] = {}
     for pattern in patterns:
