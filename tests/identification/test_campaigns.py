@@ -122,6 +122,19 @@ def test_one_test_is_a_campaign_of_one(three) -> None:
     assert alone.tests[0].rank == alone.confounding.rank == len(alone.tests[0].alone)
 
 
+def test_rows_that_are_not_held_are_made_again_as_they_were(three) -> None:
+    systems = systems_of(three)
+    for name, test in three.items():
+        own = systems_of(replace(test, question=Question(tuple(source.name for source in systems.sources))))
+        for run, held in zip(systems.of(name).runs, own.runs, strict=True):
+            assert run.rows.shape == (60, 1)
+            assert held.rows.shape == (60, 1 + len(systems.sources))
+            np.testing.assert_array_equal(run.design, held.design)
+            some = run.holding(["C_YYY", "E_YY1"])
+            np.testing.assert_array_equal(some.design_of(["E_YY1"]), held.design_of(["E_YY1"]))
+            np.testing.assert_array_equal(some.reading, held.reading)
+
+
 def test_several_tests_have_no_one_test(together) -> None:
     with pytest.raises(InputError, match="has 3 tests \\(xy, yz, zx\\), and this is asked of one test"):
         _ = together.test

@@ -15,6 +15,7 @@ from elastogeo.estimate import (
     Solution,
     minimum_norm,
     runs_needed,
+    select,
     solve,
     solve_by_run,
 )
@@ -110,6 +111,8 @@ def identify_observed(one: Askable, observations: Sequence[Observations] | None 
     found = confounding_of(campaign, systems)
     if campaign.question.robust:
         systems = downweighted(systems, found.retained)
+    if campaign.several:
+        systems = systems.holding(found.retained)
     known = effects_of(campaign, systems)
     result = replace(_identified(campaign, systems, found, known), corrected=_corrected(campaign, systems, found))
     return _assessed(result, systems, known)
@@ -238,7 +241,8 @@ def _held_against_draws(
 def _shared(systems: Systems, circles: Sequence[str], labels: Sequence[str]) -> Harmonic | None:
     """The surest harmonic that the runs of a circular test share, and whether it is one for so many tests."""
     parts = [systems.of(test).runs for test in circles if test in systems.tests]
-    seen = [[label for label in labels if any(run.design_of([label]).any() for run in runs)] for runs in parts]
+    norms = [select(merged(runs), labels).column_norms for runs in parts]
+    seen = [[label for label, norm in zip(labels, own, strict=True) if norm] for own in norms]
     found = [shared_harmonic(runs, own, len(parts)) for runs, own in zip(parts, seen, strict=True)]
     return max(filter(None, found), key=lambda harmonic: (harmonic.significant, harmonic.amplitude), default=None)
 
@@ -342,7 +346,7 @@ def _set_up(run: RunSystem, solution: Solution) -> dict[str, float]:
 
 def _trace(run: RunSystem, solution: Solution) -> Trace:
     predicted = run.design_of(solution.labels) @ solution.values
-    return Trace(run.name, run.force, run.observations.pose, run.reading, predicted, run.test)
+    return Trace(run.name, run.force, run.observations.pose, run.reading.copy(), predicted, run.test)
 
 
 def _levels(
@@ -395,7 +399,7 @@ def _responses(campaign: Campaign, systems: Systems, solution: Solution) -> tupl
         first.setdefault((run.force, run.test, sense), run)  # a part of a run, as a cycle, goes around nothing
     found = []
     for (force, *_), run in sorted(first.items(), key=lambda item: item[0][0]):
-        chosen = np.unique(np.linspace(0, len(run.rows) - 1, POSES_DRAWN).round().astype(int))
+        chosen = np.unique(np.linspace(0, len(run.reading) - 1, POSES_DRAWN).round().astype(int))
         found.append(Response(run.name, force, run.observations.pose[chosen], run.design_of(solution.labels)[chosen]))
     return tuple(found)
 

@@ -150,9 +150,14 @@ def _on_all_runs(by_test: Mapping[str, Effect], systems: Systems) -> Effect:
     return Effect(
         one.influence,
         stretch,
-        tuple(shifts.get(k, np.zeros(len(run.rows))) for k, run in enumerate(systems.runs)) if shifts else None,
-        tuple(columns.get(k, np.zeros((len(run.rows), none))) for k, run in enumerate(systems.runs)) if columns else None,
+        tuple(shifts.get(k, _nothing(run)) for k, run in enumerate(systems.runs)) if shifts else None,
+        tuple(columns.get(k, _nothing(run, none)) for k, run in enumerate(systems.runs)) if columns else None,
     )
+
+
+def _nothing(run: RunSystem, *columns: int) -> Array:
+    """Zeros for every reading of a run, which take no memory."""
+    return np.broadcast_to(0.0, (len(run.reading), *columns))
 
 
 def _said(influence: Influence) -> str:

@@ -132,7 +132,8 @@ def _of_test(name: str, test: MachineTest, observed: Sequence[Observations], sco
                 f"reference level, with geometry and set-up in the model: ask with reference 'none'"
             )
         chosen = tuple(replace(run, run=f"{name}/{run.run}") for run in chosen)
-    return run_systems(scopes.sources, test.machine, chosen, reference, own, force_spread(test), name, scopes.absent[name])
+    spread, absent = force_spread(test), scopes.absent[name]
+    return run_systems(scopes.sources, test.machine, chosen, reference, own, spread, name, absent, not several)
 
 
 def sources_of(one: Askable) -> tuple[Source, ...]:

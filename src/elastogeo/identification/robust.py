@@ -32,6 +32,7 @@ def downweighted(systems: Systems, retained: Sequence[str]) -> Systems:
     """
     if systems.references:
         raise UnsupportedError("a robust estimate needs the model without a reference level; leave reference_force out")
+    systems = systems.holding(systems.runs[0].factor.labels)
     weighted, last = systems.runs, solve(merged(systems.runs), retained).values
     for _ in range(_STEPS):
         residual = [np.sqrt(run.precision) * (run.reading - run.design_of(retained) @ last) for run in weighted]

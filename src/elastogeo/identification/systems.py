@@ -6,7 +6,7 @@ if it were estimated in each run anew (Frisch, Waugh and Lovell). What is left o
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -40,8 +40,9 @@ class RunSystem:
         As observed; nothing is taken off.
     force : float [N]
         Of its level, less the reference's if one is subtracted (Eq. 4.27).
-    rows : array, shape (m, p + 1)
-        `[A | y]`, less the reference's if one is taken off (Eq. 4.26), less what the run's own set-up explains of them.
+    rows : array, shape (m, q + 1)
+        `[A | y]` of the columns that are held, less the reference's if one is taken off (Eq. 4.26), less what the run's own
+        set-up explains of them.
     factor : Factor
         Of the rows, each with the root of its weight.
     own : array, shape (m, k)
@@ -56,6 +57,11 @@ class RunSystem:
         Of the readings, where outliers count less; None if all count one.
     precision : float
         What a reading of its test counts against those of other tests: one over its variance, 1 on the average of all.
+    held : tuple of str, length q, or None
+        The columns that are held; None if all of the factor are. Others are made again when they are asked for: the rows of
+        many tests would fill the memory.
+    model : tuple of (tuple of Source, Machine) or None
+        To make them with, the sources that act in the test.
     """
 
     observations: Observations
@@ -68,6 +74,8 @@ class RunSystem:
     test: str = ""
     weights: Array | None = None
     precision: float = 1.0
+    held: tuple[str, ...] | None = None
+    model: tuple[tuple[Source, ...], Machine] | None = None
 
     @property
     def name(self) -> str:
@@ -76,7 +84,27 @@ class RunSystem:
 
     def design_of(self, labels: Sequence[str]) -> Array:
         """Columns of the design for these parameters, shape (m, len(labels))."""
-        return self.rows[:, [self.factor.labels.index(label) for label in labels]]
+        held = self.factor.labels if self.held is None else self.held
+        if self.model is not None and any(label not in held for label in labels):
+            return self._made(labels)
+        return self.rows[:, [held.index(label) for label in labels]]
+
+    def holding(self, labels: Sequence[str]) -> RunSystem:
+        """The same run, of whose rows these columns are held and no others."""
+        rows = np.column_stack([self.design_of(labels), self.reading])
+        return replace(self, rows=np.asfortranarray(rows), held=tuple(labels))
+
+    def _made(self, labels: Sequence[str]) -> Array:
+        """Columns of the design as they were made for the factor."""
+        assert self.model is not None
+        sources, machine = self.model
+        acting = [source for source in sources if source.name in labels]
+        columns = np.zeros((len(self.observations), len(labels)))
+        at = [labels.index(source.name) for source in acting]
+        columns[:, at] = design_rows(acting, machine, self.observations)[:, :-1]
+        left = columns - self.own @ self.aside[:, [self.factor.labels.index(label) for label in labels]]
+        left[:, np.linalg.norm(left, axis=0) <= ABSORBED * np.linalg.norm(columns, axis=0)] = 0.0
+        return np.asarray(left)
 
     @property
     def reading(self) -> Array:
@@ -86,7 +114,7 @@ class RunSystem:
     @property
     def design(self) -> Array:
         """Change of each reading per unit of each parameter, shape (m, p)."""
-        return self.rows[:, :-1]
+        return self.design_of(self.factor.labels)
 
     @property
     def angular(self) -> bool:
@@ -149,6 +177,10 @@ class Systems:
         """The systems of one of the tests."""
         return replace(self, runs=tuple(run for run in self.runs if run.test == test))
 
+    def holding(self, labels: Sequence[str]) -> Systems:
+        """The same systems, of whose rows these columns are held and no others."""
+        return replace(self, runs=tuple(run.holding(labels) for run in self.runs))
+
     @property
     def strongest(self) -> tuple[RunSystem, ...]:
         """The runs at the highest force of their test."""
@@ -193,6 +225,7 @@ def run_systems(
     spread: ForceSpread | None = None,
     test: str = "",
     absent: Collection[str] = (),
+    hold: bool = True,
 ) -> Systems:
     """The linear system of every run of a test.
 
@@ -213,6 +246,8 @@ def run_systems(
         Name of the test.
     absent : collection of str
         Names of the sources that are of other tests: they move no reading of this one.
+    hold : bool
+        Whether the runs hold their rows; if not, they are made again when they are asked for.
 
     Raises
     ------
@@ -224,7 +259,8 @@ def run_systems(
     labels = [source.name for source in sources]
     here = [k for k, source in enumerate(sources) if source.name not in absent]
     acting = [sources[k] for k in here]
-    rows = [_spread_out(design_rows(acting, machine, run), here, len(sources)) for run in observations]
+    made = (_spread_out(design_rows(acting, machine, run), here, len(sources)) for run in observations)
+    rows: Iterable[Array] = made if reference is None else list(made)
     levels = force_levels((run.force for run in observations), spread)
     forces = [levels.level(run.force) for run in observations]
     applied = force_levels((force for run in observations for force in _applied(run)), spread)
@@ -248,11 +284,13 @@ def run_systems(
     sizes = np.max([np.linalg.norm(columns, axis=0) / np.sqrt(len(columns)) for columns in own_columns], axis=0)
     moving = [k for k in range(len(own)) if sizes[k] > OWN_TOLERANCE]
     names = tuple(own[k].name for k in moving)
-    runs = tuple(
+    model = None if hold else (tuple(acting), machine)
+    every = (
         _run_system(labels, run, force, r, np.asfortranarray(columns[:, moving]), names, test)
         for run, force, r, columns, is_ref in zip(observations, forces, rows, own_columns, is_reference, strict=True)
         if not is_ref
     )
+    runs = tuple(run if model is None else replace(run, model=model).holding(()) for run in every)
     ceilings = np.zeros(len(sources))
     ceilings[here] = np.linalg.norm([column_ceilings(acting, machine, run) for run in observations], axis=0)
     return Systems(tuple(sources), runs, references, applied, ceilings)
@@ -270,7 +308,7 @@ def _spread_out(rows: Array, here: Sequence[int], columns: int) -> Array:
 def joined(tests: Sequence[Systems]) -> Systems:
     """The systems of several tests as one; of one test, itself.
 
-    Forces of different tests that agree are one level.
+    Forces of different tests that agree are one level. Of their rows none are held but the readings.
     """
     if len(tests) == 1:
         return tests[0]
@@ -299,7 +337,7 @@ def with_precision(run: RunSystem, precision: float) -> RunSystem:
 
 
 def reweighted(run: RunSystem, weights: Array) -> RunSystem:
-    """The same run with a weight for each reading, shape (m,); its own set-up is found anew."""
+    """The same run, whose rows are all held, with a weight for each reading, shape (m,); its own set-up is found anew."""
     more = own_part(run.own, run.rows, weights)
     rows, root = run.rows - run.own @ more, np.sqrt(run.precision * weights)[:, np.newaxis]
     factor = _factor_of(run.factor.labels, rows * root, run.own * root)

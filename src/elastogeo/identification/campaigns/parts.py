@@ -115,8 +115,13 @@ def shares_of(systems: Systems, labels: Sequence[str]) -> Shares:
         ranks_so_far=tuple(rank for _, rank in so_far),
         alone=np.array([np.isfinite(found) for found, _ in alone]),
         so_far=np.array([np.isfinite(found) for found, _ in so_far]),
-        information=np.array([1.0 - variance / found for found in without]),
+        information=np.array([_share(variance, found) for found in without]),
     )
+
+
+def _share(variance: Array, without: Array) -> Array:
+    """1 less the variance with all tests over that without one."""
+    return 1.0 - np.divide(variance, without, out=np.zeros_like(variance), where=np.isfinite(without))
 
 
 def _variances(tests: Sequence[Factor], norms: Array) -> tuple[Array, int]:
