@@ -26,9 +26,8 @@ from elastogeo.identification import (
     systems_of,
     uncertainty_budget,
 )
-from elastogeo.machine import Machine, parse_topology
+from elastogeo.machine import About, Machine, parse_topology
 from elastogeo.observe import (
-    About,
     BallBar,
     Campaign,
     Circle,
