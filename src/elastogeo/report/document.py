@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from elastogeo.estimate import Estimate
 from elastogeo.identification import Check
 from elastogeo.observe import Campaign, MachineTest
 from elastogeo.report.sentences import sentence_of
@@ -77,6 +78,16 @@ def tested_together(campaign: Campaign, reference_force: float | None) -> dict[s
 def verdict_entries(checks: Iterable[Check]) -> list[dict[str, Any]]:
     """Named checks."""
     return [{"name": c.name, "passed": c.passed, "sentence": sentence_of(c), "decisive": c.decisive} for c in checks]
+
+
+def uncertainty_entries(found: Estimate | None, factor: float = 1.0) -> dict[str, Any]:
+    """How uncertain a value is, in its own unit times a factor; null where it is not known."""
+    known = found if found is not None and found.known else None
+    return {
+        "standard_uncertainty": None if known is None else known.standard_uncertainty * factor,
+        "interval95": None if known is None else [bound * factor for bound in known.interval()],
+        "degrees_of_freedom": None if known is None else known.degrees_of_freedom,
+    }
 
 
 def in_um(length: float | None) -> float | None:

@@ -16,8 +16,9 @@ from elastogeo.observe.force import Calibration, force_influences, force_of_run
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
+from elastogeo.observe.on_circle import OnCircle
 from elastogeo.observe.run import Run
-from elastogeo.observe.setup import Respond, Setup, SetupFact
+from elastogeo.observe.setup import Respond, SetupFact
 from elastogeo.observe.template import BAR, CIRCLE, FORCE, Template
 
 MOST_TURNS = 10.0
@@ -55,7 +56,7 @@ E_XX1 = -1e-4
 
 @instrument("loaded-ball-bar")
 @dataclass(frozen=True, slots=True)
-class LoadedBallBar(Setup):
+class LoadedBallBar(OnCircle):
     """Set-up of a loaded ball bar.
 
     Attributes
@@ -101,29 +102,9 @@ class LoadedBallBar(Setup):
         influences=FORCE + BAR,
     )
 
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        """Columns that a run file must have."""
-        return ("angle", "radial")
-
-    @property
-    def pose_quantity(self) -> str:
-        """The angle in the plane of the circle."""
-        return "angle"
-
-    @property
-    def own_to_run(self) -> tuple[str, ...]:
-        """The offsets of the circle's centre."""
-        return ("E_[XYZ]t0",)
-
     def default_parameters(self, runs: Sequence[Run]) -> tuple[str, ...]:
         """Compliance, geometry and location of a loaded bar; the faults that a bar without load shows."""
         return circle_parameters(self.circle, any(run.force or run.pressure for run in runs))
-
-    @property
-    def nominal_radius(self) -> float:
-        """That of the circle."""
-        return self.circle.radius
 
     def facts(self) -> tuple[SetupFact, ...]:
         """Circle and feed, and the correction of the set-up's deflection if it is on."""

@@ -15,8 +15,9 @@ from elastogeo.observe.circle import Circle, circle_facts, circle_parameters
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations
+from elastogeo.observe.on_circle import OnCircle
 from elastogeo.observe.run import Run
-from elastogeo.observe.setup import Respond, Setup, SetupFact
+from elastogeo.observe.setup import Respond, SetupFact
 from elastogeo.observe.template import BAR, CIRCLE, Template
 
 _SIMULATION = """\
@@ -39,7 +40,7 @@ E_Xt0 = 0.012
 
 @instrument("ball-bar")
 @dataclass(frozen=True, slots=True)
-class BallBar(Setup):
+class BallBar(OnCircle):
     """Set-up of an ordinary ball bar: its runs have no force.
 
     Attributes
@@ -70,26 +71,6 @@ class BallBar(Setup):
         repeats=3,
         influences=BAR,
     )
-
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        """Columns that a run file must have."""
-        return ("angle", "radial")
-
-    @property
-    def pose_quantity(self) -> str:
-        """The angle in the plane of the circle."""
-        return "angle"
-
-    @property
-    def nominal_radius(self) -> float:
-        """That of the circle."""
-        return self.circle.radius
-
-    @property
-    def own_to_run(self) -> tuple[str, ...]:
-        """The offsets of the circle's centre."""
-        return ("E_[XYZ]t0",)
 
     def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
         """The faults that a bar without load shows."""

@@ -43,12 +43,13 @@ from elastogeo.observe.circle import Circle, circle_facts, circle_parameters
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.on_circle import OnCircle
 from elastogeo.observe.rollers.beginning import TEMPLATE
 from elastogeo.observe.rollers.force import ContactForce, contact_force, drives_against, observed_influences
 from elastogeo.observe.rollers.rig import Rig
 from elastogeo.observe.rollers.track import Track, moving, track_of
 from elastogeo.observe.run import Run
-from elastogeo.observe.setup import Respond, Setup, SetupFact
+from elastogeo.observe.setup import Respond, SetupFact
 
 MEASURED_FORCE = 0.02
 """Columns that differ by a smaller share than this differ by the noise of the force, which is measured."""
@@ -85,7 +86,7 @@ class Pressed:
 
 @instrument("ball-roller")
 @dataclass(frozen=True, slots=True)
-class BallRoller(Setup):
+class BallRoller(OnCircle):
     """Set-up of a ball-roller test.
 
     Attributes
@@ -145,24 +146,9 @@ class BallRoller(Setup):
         axes = [drive.axis.lower() for drive in self.drives]
         return ("time", *(f"position_{axis}" for axis in axes), *(f"current_{axis}" for axis in axes))
 
-    @property
-    def pose_quantity(self) -> str:
-        """The angle in the plane of the circle."""
-        return "angle"
-
-    @property
-    def own_to_run(self) -> tuple[str, ...]:
-        """The offsets of the circle's centre."""
-        return ("E_[XYZ]t0",)
-
     def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
         """Compliance, geometry and location."""
         return circle_parameters(self.circle, loaded=True)
-
-    @property
-    def nominal_radius(self) -> float:
-        """Distance of the centres at which ball and roller just touch."""
-        return self.circle.radius
 
     def facts(self) -> tuple[SetupFact, ...]:
         """Circle and feed, the axes that press, the parts in the loop."""

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from elastogeo.estimate import Estimate
 from elastogeo.identification import BarCalibration, ForceCalibration
 from elastogeo.machine import Array
-from elastogeo.report.document import UM, document, verdict_entries
+from elastogeo.report.document import UM, document, uncertainty_entries, verdict_entries
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.numbers import pretty, significant, value_with_uncertainty
 from elastogeo.report.view import KeyValue, Picture, Section, Table, View, attention_sentence, said, views
@@ -130,12 +130,7 @@ def _force_entry(force: ForceCalibration) -> dict[str, Any]:
 
 
 def _number(estimate: Estimate) -> dict[str, Any]:
-    return {
-        "value": estimate.value,
-        "standard_uncertainty": estimate.standard_uncertainty,
-        "degrees_of_freedom": estimate.degrees_of_freedom,
-        "interval95": estimate.interval(),
-    }
+    return {"value": estimate.value, **uncertainty_entries(estimate)}
 
 
 def _residuals(result: BarCalibration) -> Figure:

@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import Any
 
 from elastogeo.identification import BeforeAfter, Difference, Parameter
-from elastogeo.report.document import document, tested, verdict_entries
+from elastogeo.report.document import document, tested, uncertainty_entries, verdict_entries
 from elastogeo.report.identification.document import change_entry
 
 COMPARISON_SCHEMA = "elastogeo.comparison/1"
@@ -41,9 +41,7 @@ def _difference(found: Difference, parameter: Parameter) -> dict[str, Any]:
         "before": found.before,
         "after": found.after,
         "change": found.change.value,
-        "standard_uncertainty": found.change.standard_uncertainty,
-        "degrees_of_freedom": found.change.degrees_of_freedom,
-        "interval95": found.change.interval(),
+        **uncertainty_entries(found.change),
         "p_value": found.p_value,
         "separated": parameter.separated,
         "stands_for": parameter.stands_for,

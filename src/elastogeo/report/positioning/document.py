@@ -21,7 +21,7 @@ from __future__ import annotations
 from typing import Any
 
 from elastogeo.identification import PositioningResults, StandardValue
-from elastogeo.report.document import document, tested, verdict_entries
+from elastogeo.report.document import document, tested, uncertainty_entries, verdict_entries
 from elastogeo.report.identification.document import identification_json
 from elastogeo.report.positioning.scale import scale_of
 
@@ -60,13 +60,10 @@ def positioning_json(found: PositioningResults) -> dict[str, Any]:
 
 
 def _value(value: StandardValue, factor: float) -> dict[str, Any]:
-    found = value.estimate
     return {
         "name": value.name,
         "value": value.value * factor,
-        "standard_uncertainty": None if found is None else found.standard_uncertainty * factor,
-        "interval95": None if found is None else [bound * factor for bound in found.interval()],
-        "degrees_of_freedom": None if found is None else found.degrees_of_freedom,
+        **uncertainty_entries(value.estimate, factor),
         "measurement_uncertainty": value.measurement * factor,
         "contributions": [
             {

@@ -63,7 +63,7 @@ from elastogeo.identification.static_tests import (
     TwistPlace,
     TwistRun,
 )
-from elastogeo.report.document import UM, document, tested, verdict_entries
+from elastogeo.report.document import UM, document, tested, uncertainty_entries, verdict_entries
 from elastogeo.report.identification.document import identification_json
 
 STATIC_SCHEMA = "elastogeo.static/1"
@@ -99,14 +99,7 @@ def static_json(found: StaticResults) -> dict[str, Any]:
 
 
 def _number(found: Estimate | None, scale: float) -> dict[str, Any] | None:
-    if found is None:
-        return None
-    return {
-        "value": found.value * scale,
-        "standard_uncertainty": found.standard_uncertainty * scale if found.known else None,
-        "interval95": [bound * scale for bound in found.interval()] if found.known else None,
-        "degrees_of_freedom": found.degrees_of_freedom if found.known else None,
-    }
+    return None if found is None else {"value": found.value * scale, **uncertainty_entries(found, scale)}
 
 
 def _place(place: LoadedPlace) -> dict[str, Any]:
