@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from elastogeo.errors import InputError
 from elastogeo.identification import ball_deviations, identify
 from elastogeo.machine import Array, Machine, loop_frames
-from elastogeo.observe import BallMotion, Imperfection, MachineTest, Observations, Run, SphereNest
+from elastogeo.observe import BallMotion, Imperfection, MachineTest, Observations, Question, Run, SphereNest
 from elastogeo.sources import simulate
 
 MakeMachine = Callable[..., Machine]
@@ -107,6 +107,32 @@ def test_a_preload_presses_along_its_direction_in_the_nest(make_machine: MakeMac
     assert_allclose(frames.workpiece.components(seen.wrench[:, :3]), np.tile([0.0, 0.0, 40.0], (72, 1)), atol=1e-12)
     with pytest.raises(InputError, match="run 'one' has a force of 40 N and the set-up no direction of it"):
         replace(setup, preload=None).observe(machine, Run("one", {**READ, "angle": ANGLE}, force=40.0))
+
+
+def test_each_axis_has_the_sense_in_which_it_came_to_the_pose(make_machine: MakeMachine) -> None:
+    machine = make_machine("wCAFYXZt")
+    angle = np.deg2rad([0, 0, 10, 20, 20, 10, 0, 0])
+    setup = SphereNest(SENSORS, CENTRE)
+    read = {f"displacement_{k}": np.zeros(8) for k in (1, 2, 3)}
+    seen = setup.observe(machine, Run("one", {**read, "c": angle}))
+    assert seen.sense is not None
+    for sensor in range(3):
+        assert_allclose(seen.sense[8 * sensor : 8 * sensor + 8, machine.index("C")], [0, 0, 1, 1, 1, -1, -1, -1])
+    assert_allclose(seen.sense[:, machine.index("A")], 0.0)
+
+
+def test_backlash_of_a_rotary_axis_comes_back_from_poses_taken_both_ways(make_machine: MakeMachine) -> None:
+    """A table that falls short of its turn moves a ball by the backlash times its distance from the axis, half each way."""
+    machine = make_machine("wCAFYXZt")
+    motions = (BallMotion({"C": 0.0}, {"C": 3.0}, there_and_back=True), A_SWINGS)
+    question = Question(("rotary-axes", "E_[XYZ]w0", "B_CC", "B_AA"))
+    runs = tuple(Run(str(k), {"angle": ANGLE}) for k in range(3))
+    test = MachineTest("nest", machine, SphereNest(SENSORS, CENTRE, motions=motions), runs, question)
+    truth = {"B_CC": 4e-5, "B_AA": -2e-5, "E_X(0A)C": 0.01}
+    result = identify(simulate(test, truth, Imperfection(noise=1e-5), seed=1))
+    for name, value in truth.items():
+        assert result[name].value == pytest.approx(value, abs=5 * result[name].standard_uncertainty)
+        assert result[name].standard_uncertainty < 0.02 * abs(value)
 
 
 def test_bad_runs_and_set_ups_are_refused(make_machine: MakeMachine) -> None:

@@ -42,6 +42,9 @@ length_um = 1
 
 """
 
+STANDING = 1e-7
+"""A step of an axis [mm, rad] that is smaller is rounding: the axis stood."""
+
 MOST_TURNS = 10.0
 """Turns of a rotary axis that a run may have."""
 
@@ -100,7 +103,7 @@ class SphereNest(Setup):
     their columns (`x_mm`) are recorded too, what they miss it by is taken off the readings. Each row is one observation of
     every sensor, sensor after sensor. The sensors need not be zeroed: zeros of the sensors are offsets of the end that
     carries the nest, so that this end is known only if the nest was calibrated in place. Motion counts as quasi-static: no
-    velocity.
+    velocity, but each axis has the sense in which it came to the pose from the one before, for its backlash.
 
     Attributes
     ----------
@@ -222,6 +225,7 @@ class SphereNest(Setup):
             correction=correction,
             tool=tool,
             workpiece=planned.ball,
+            sense=np.asfortranarray(np.tile(_senses(commands), (sensors, 1))),
         )
         check_observations(observations)
         check_displacements(run, self.readings)
@@ -295,6 +299,14 @@ def _with_recorded(machine: Machine, run: Run, position: Array) -> Array:
                 raise InputError(f"run {run.name!r}: a position of axis {axis} is no finite number; take the reading out")
             position[:, machine.index(axis)] = values
     return position
+
+
+def _senses(commands: Array) -> Array:
+    """In which sense each axis came to each pose, shape (m, n): 1, -1, as before where it stood, 0 before it first moved."""
+    step = np.diff(commands, axis=0, prepend=commands[:1])
+    moved = np.where(np.abs(step) > STANDING, np.sign(step), 0.0)
+    row = np.maximum.accumulate(np.where(moved != 0, np.arange(len(commands))[:, np.newaxis], 0), axis=0)
+    return np.asarray(np.take_along_axis(moved, row, axis=0))
 
 
 def _check_followed(run: Run, missed: Array) -> None:
