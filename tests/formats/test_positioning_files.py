@@ -120,3 +120,11 @@ def test_a_new_positioning_test_simulates_and_is_supported(tmp_path: Path) -> No
     found = identify(simulate(folder))
     assert set(found) == {"E_XX1", "E_XX2", "E_XX3", "B_XX"}
     assert found["B_XX"].interval is not None
+
+
+def test_the_temperature_stands_in_the_test_file(tmp_path: Path) -> None:
+    warm = "axis_at = { temperature_degC = 22, expansion_um_per_m = 11.5, temperature_uncertainty_degC = 0.3 }"
+    test = read_test(folder_with(tmp_path, f"target_mm,direction,position_mm\n{ROWS}", more=warm))
+    (seen,) = test.observations()
+    assert_allclose(seen.correction, 23e-6 * np.array([-10, 0, 10, 10, 0, -10]), atol=1e-15)
+    assert [one.label for one in seen.influences] == ["temperature of the axis"]

@@ -15,6 +15,7 @@ from elastogeo.identification import identify, merged, systems_of
 from elastogeo.machine import Array, Joint, Machine, parse_topology
 from elastogeo.observe import (
     Circle,
+    Expansion,
     Imperfection,
     KnownInfluence,
     LoadedBallBar,
@@ -301,3 +302,47 @@ def test_a_campaign_of_laser_and_angular_sensor_frees_positioning_of_its_lever()
         low, high = together[name].interval or (np.nan, np.nan)
         assert low <= true <= high
         assert high - low < abs(true)
+
+
+WARM = Expansion(temperature=22.0, expansion=11.5e-6, temperature_uncertainty=0.3, expansion_uncertainty=1e-6)
+GLASS = Expansion(temperature=25.0, expansion=8e-6)
+
+
+def test_lengths_are_referred_to_20_degrees() -> None:
+    """2 K of steel are 23 um/m too far; a glass scale 5 K too warm reads 40 um/m too little."""
+    target = np.array([-100.0, 0.0, 100.0])
+    for axis, sensor, stretch in ((WARM, None, 23e-6), (None, GLASS, -40e-6), (WARM, GLASS, -17e-6)):
+        run = run_of(list(target), position=list(target * (1 + 1e-5 + stretch)))
+        seen = Positioning("X", axis_at=axis, sensor_at=sensor).observe(machine("wFXYt"), run)
+        assert_allclose(seen.reading, 1e-5 * target, atol=1e-12)
+        assert_allclose(seen.correction, stretch * target, atol=1e-12)
+
+
+def test_a_sensor_that_counts_the_other_way_is_corrected_the_other_way() -> None:
+    target = np.array([-100.0, 0.0, 100.0])
+    run = run_of(list(target), position=list(-target * (1 + 1e-5 + 23e-6)))
+    seen = Positioning("X", direction=(-1.0, 0.0, 0.0), axis_at=WARM).observe(machine("wFXYt"), run)
+    assert_allclose(seen.reading, -1e-5 * target, atol=1e-12)
+
+
+def test_a_simulated_warm_machine_gives_its_parameters_at_20_degrees_and_their_uncertainty() -> None:
+    """11.5e-6 x 0.3 K, and 2 K x 1e-6: both of every length."""
+    setup = Positioning("X", targets=TARGETS, axis_at=WARM)
+    found = identify(moved(setup, {"E_XX1": 1e-5, "B_XX": 0.002}, machine("wFXYt"), ("E_XX1", "B_XX")))
+    assert found["E_XX1"].value == pytest.approx(1e-5, rel=1e-9)
+    lines = {line.label: line.contribution for line in found.budget.lines[0]}
+    assert lines["temperature of the axis"] == pytest.approx(11.5e-6 * 0.3, rel=1e-9)
+    assert lines["expansion of the axis"] == pytest.approx(2e-6, rel=1e-9)
+
+
+def test_temperatures_that_no_test_has_are_refused() -> None:
+    with pytest.raises(InputError, match="between 0 and 60: is it in kelvin"):
+        Expansion(295.0, 11.5e-6)
+    with pytest.raises(InputError, match=r"steel has 11\.5e-6: write expansion_um_per_m = 11\.5"):
+        Expansion(22.0, 11.5)
+    with pytest.raises(InputError, match="give none below zero"):
+        Expansion(22.0, 11.5e-6, -0.1)
+    with pytest.raises(InputError, match="C is not read along a linear axis"):
+        Positioning("C", axis_at=WARM)
+    with pytest.raises(InputError, match="X is not read along a linear axis"):
+        Positioning("X", direction=(0, 1, 0), axis_at=WARM)

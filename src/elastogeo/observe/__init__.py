@@ -6,6 +6,7 @@ from elastogeo.observe.campaign import Askable, Campaign, campaign_of, with_ques
 from elastogeo.observe.circle import PLANES, Circle, plane_directions
 from elastogeo.observe.contradictions import check_runs, turning
 from elastogeo.observe.covariance import ASSUMED
+from elastogeo.observe.expansion import Expansion
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, ForceInfluence, force_from_pressure
 from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
@@ -37,6 +38,7 @@ __all__ = [
     "Campaign",
     "Circle",
     "DisplacementProbes",
+    "Expansion",
     "ForceInfluence",
     "Imperfection",
     "JointProbe",

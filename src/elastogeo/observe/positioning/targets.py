@@ -6,7 +6,7 @@ straightness, about a direction an angular error motion: only the sensitive dire
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
@@ -28,9 +28,10 @@ from elastogeo.machine import (
 )
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector
+from elastogeo.observe.expansion import Expansion
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
-from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
 from elastogeo.observe.positioning.approaches import approaches, distinct
 from elastogeo.observe.positioning.readings import check_readings, deviations
 from elastogeo.observe.run import Run
@@ -56,6 +57,7 @@ pose = { @CENTRE@ }            # where the other axes stand
 # tool_mm = [0, 0, 0]            # where reflector or sensor sits in the last tool-side carriage, if not at the tool point
 # direction = [0, 1, 0]          # in which the sensor reads, if not along the axis: straightness
 # about = [0, 1, 0]              # about which an angular sensor reads
+# axis_at = { temperature_degC = 22.5, expansion_um_per_m = 11.5, temperature_uncertainty_degC = 0.3 }   # to 20 degC
 targets_mm = [-201.3, -148.2, -102.7, -49.1, 0.6, 51.4, 97.9, 152.2, 199.5]   # to plan and simulate; not evenly spaced
 cycles = 5
 
@@ -116,6 +118,9 @@ class Positioning(Setup):
         Whether these are given in the (turned) workpiece frame rather than in the foundation.
     tool : tuple of 3 float or None [mm]
         Where the reflector or the sensor sits, in the frame of the last tool-branch carriage; None for the tool point.
+    axis_at, sensor_at : Expansion or None
+        Temperature of the machine along its axis, and of the sensor, with their expansions: lengths are then referred to
+        20 °C (ISO 1). None for what is at 20 °C, or was corrected by the control or the laser.
     targets : tuple of float [mm, rad]
         Of a test that is planned or simulated.
     cycles : int
@@ -128,6 +133,8 @@ class Positioning(Setup):
     about: Direction | None = None
     in_workpiece: bool = False
     tool: Point | None = None
+    axis_at: Expansion | None = None
+    sensor_at: Expansion | None = None
     targets: Targets = ()
     cycles: int = 5
 
@@ -152,6 +159,11 @@ class Positioning(Setup):
         for name in ("direction", "about"):
             if getattr(self, name) is not None:
                 unit_vector(getattr(self, name), f"the sensitive {name}")
+        if (self.axis_at or self.sensor_at) and not (self.is_along and not self.is_rotary):
+            raise InputError(
+                f"temperatures count for a length, and {self.axis} is not read along a linear axis; take axis_at and "
+                f"sensor_at out"
+            )
         if self.cycles < 1:
             raise InputError(f"cycles is {self.cycles}; a test has one cycle at least, ISO 230-2 asks for five")
 
@@ -254,6 +266,8 @@ class Positioning(Setup):
         counted = along if np.abs(along).min() >= ALONG else None
         reading = deviations(run, columns, counted)
         check_readings(run, target, reading, angular=self.is_angular)
+        way = np.zeros(len(target)) if counted is None else counted * (target - centre[moving])
+        correction = self._stretch() * way
         sense = np.zeros_like(commands)
         sense[:, moving] = approaches(run, target).sense
         at_tool = frames.workpiece.components(frames.point - frames.workpiece.origin)
@@ -267,12 +281,13 @@ class Positioning(Setup):
             centre=centre,
             direction=direction,
             wrench=np.zeros((len(target), 6)),
-            reading=reading,
-            correction=np.zeros(len(target)),
+            reading=reading - correction,
+            correction=correction,
             tool=tool,
             workpiece=np.array(np.broadcast_to(at_tool, (len(target), 3))),
+            influences=tuple(self._warmth(way)),
             sense=sense,
-            nominal=None if counted is None else counted * (target - centre[moving]),
+            nominal=None if counted is None else way,
         )
         return check_observations(observations)
 
@@ -283,9 +298,8 @@ class Positioning(Setup):
         columns = {name: values for name, values in self._columns(run).items() if name not in ("position", "deviation")}
         target = columns["target"]
         blank = self.observe(machine, replace(run, columns={**columns, "deviation": np.zeros(len(target))}))
-        read = (
-            imperfection.angular(respond(blank), random) if self.is_angular else imperfection.noisy(respond(blank), random)
-        )
+        true = respond(blank) - blank.reading  # what the correction will take off, the raw reading has on top
+        read = (imperfection.angular if self.is_angular else imperfection.noisy)(true, random)
         if blank.nominal is None:
             return replace(run, columns={**columns, "deviation": read})
         return replace(run, columns={**columns, "position": self._cosine_of(machine, blank) * target + read})
@@ -304,6 +318,17 @@ class Positioning(Setup):
             said = ", ".join(f"{count} of {name}" for name, count in lengths.items())
             raise InputError(f"run {run.name!r} has {said}; every reading needs one value of each")
         return columns
+
+    def _stretch(self) -> float:
+        """By how much the readings are too great, relative to the way: a warm axis goes far, a warm sensor reads little."""
+        return (self.axis_at.stretch if self.axis_at else 0.0) - (self.sensor_at.stretch if self.sensor_at else 0.0)
+
+    def _warmth(self, way: Array) -> Iterator[ObservedInfluence]:
+        """What is uncertain in the correction to 20 °C."""
+        if self.axis_at:
+            yield from self.axis_at.influences("axis", way)
+        if self.sensor_at:
+            yield from self.sensor_at.influences("sensor", -way)
 
     def _planned(self, run: Run) -> dict[str, Array]:
         if not self.targets:
