@@ -52,7 +52,7 @@ def test_documents_and_folders_say_what_they_are(tmp_path: Path) -> None:
         inspect_file(tmp_path / "other.toml")
     empty = tmp_path / "empty"
     empty.mkdir()
-    with pytest.raises(FormatError, match=r"is a folder without test\.toml, drive\.toml or parts of a recording"):
+    with pytest.raises(FormatError, match=r"is a folder without test\.toml, campaign\.toml, drive\.toml or parts of a"):
         inspect_file(empty)
 
 
@@ -93,3 +93,14 @@ def test_names_of_other_languages_are_guessed_and_commands_are_not_taken_for_rea
 
 def test_a_guess_respects_the_unit() -> None:
     assert guessed_quantity("Strom X", "mm") == ""
+
+
+@pytest.mark.parametrize(
+    "header", ["pressure_bar,force_N", "pressure_bar,displacement_um", "engagement_um,force_N,ball_um,roller_um"]
+)
+def test_readings_for_a_calibration_are_no_log(tmp_path, header: str) -> None:
+    rows = "\n".join(",".join(str(k + n) for n in range(header.count(",") + 1)) for k in range(1, 6))
+    (tmp_path / "readings.csv").write_text(f"{header}\n{rows}\n")
+    found = inspect_file(tmp_path / "readings.csv")
+    assert (found.kind, found.channels, dict(found.renamed)) == ("readings", (), {})
+    assert all(column.quantity for column in found.columns)

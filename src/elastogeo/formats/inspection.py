@@ -26,6 +26,14 @@ _INSIDE = {"length": "mm", "angle": "rad", "force": "N", "moment": "N mm", "feed
 _INSIDE |= {"acceleration": "mm/s2", "pressure": "bar", "time": "s", "current": "A", "voltage": "V", "temperature": "degC"}
 
 
+_CALIBRATED: tuple[set[str], ...] = (
+    {"pressure", "force"},
+    {"pressure", "displacement"},
+    {"engagement", "force", "ball", "roller"},
+)
+"""The columns of readings that `elastogeo calibrate` takes."""
+
+
 @dataclass(frozen=True, slots=True)
 class InspectedColumn:
     """One column of readings, or one channel of a log.
@@ -70,8 +78,9 @@ class Inspected(Result):
     ----------
     path : str
     kind : str
-        `run` (readings of an instrument), `log` (channels of a control or data logger), `recording` (a folder of
-        `elastogeo record`), or what the schema of a document says: `test`, `drive`, `machine`, `simulation`.
+        `run` (readings of an instrument), `readings` (for `elastogeo calibrate`), `log` (channels of a control or data
+        logger), `recording` (a folder of `elastogeo record`), or what the schema of a document says: `test`, `drive`,
+        `machine`, `simulation`.
     format : str
         Its name: `delimited text`, `TDMS`, ...
     runs : int
@@ -162,6 +171,8 @@ def inspect_file(path: str | Path) -> Inspected:
     except FormatError as error:
         problem = str(error) if _are_readings(log) else ""
         return _of_log(path, log, "run" if problem else "log", logs[0].name, problem)
+    if set(tables[0].columns) in _CALIBRATED:
+        return _of_log(path, log, "readings", runs[0].name)
     if not any(_is_reading(name) for name in tables[0].columns):
         return _of_log(path, log, "log", logs[0].name)
     return _of_log(path, log, "run", runs[0].name, runs=len(tables))

@@ -115,6 +115,12 @@ def probability(p_value: float) -> str:
     return "< 0.0001" if p_value < _LEAST_PROBABILITY else significant(p_value, 2) if p_value < _SURE else f"{p_value:.2f}"
 
 
+def p_said(p_value: float) -> str:
+    """A probability as a sentence has it: `p = 0.46`, `p < 0.0001`."""
+    said = probability(p_value)
+    return f"p {said}" if said.startswith("<") else f"p = {said}"
+
+
 def pretty(text: str) -> str:
     """Numbers as they are set in print: a true minus sign, powers of ten."""
     text = re.sub(r"(?<![\d.])1e([+-])(\d+)", lambda m: f"10{_raised(m[1], m[2])}", text)

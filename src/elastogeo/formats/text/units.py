@@ -131,6 +131,7 @@ _VELOCITY = ("feed", "angular rate")
 QUANTITIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         **dict.fromkeys(("radial", "radius", "length", "displacement", "x", "y", "z"), ("length",)),
+        **dict.fromkeys(("engagement", "ball", "roller"), ("length",)),
         **dict.fromkeys(("position", "command", "scale", "reading", "deviation", "error", "target"), _POSITION),
         **dict.fromkeys(("angle", "a", "b", "c"), ("angle",)),
         "velocity": _VELOCITY,

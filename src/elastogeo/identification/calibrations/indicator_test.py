@@ -50,7 +50,8 @@ class Spring:
     read : array, shape (k,) [mm]
         Standard uncertainty of that from the resolution of the dials and the scatter of repeats.
     secants : tuple of Estimate, length k [mm/N]
-        Compliance from no force on: deflection over force (Eq. 6.2).
+        Compliance from no force on: deflection over force (Eq. 6.2). **Without repeats their uncertainty is that of the
+        resolution and of the scales alone.**
     increments : tuple of Estimate, length k - 1 [mm/N]
         Compliance between neighbouring engagements.
     """
@@ -87,6 +88,11 @@ class IndicatorTest(Result):
     setup: SetupCompliance
     resolution: float
     verdict: tuple[Check, ...]
+
+    @property
+    def repeated(self) -> bool:
+        """Whether repeats show the scatter; without them the uncertainties hold less than 95 % intervals take."""
+        return self.readings > len(self.engagement)
 
     @property
     def share(self) -> Array:

@@ -1,6 +1,7 @@
 """The view of an indicator test, and `elastogeo.indicator-test/1`, its document.
 
-readings, resolution_um : of the dials
+readings, repeated, resolution_um : of the dials; where nothing was repeated, the standard uncertainties hold the resolution
+    and the stated scales alone, and nobody should expand them
 engagements : [{engagement_um, force_N, machine_share}]
 springs : {ball, roller, set-up, machine: {deflection_um: [..], secants: [..], increments: [..]}}; each of these is
     {compliance_um_per_N, standard_uncertainty_um_per_N, degrees_of_freedom, stiffness_N_per_um}, its stiffness null where it
@@ -75,12 +76,14 @@ def _answer(result: IndicatorTest) -> str:
 def _values(result: IndicatorTest) -> Iterator[KeyValue]:
     at = f"{result.engagement[-1] * UM:.4g} µm"
     machine = result.springs["machine"]
-    yield KeyValue("machine, increment", _said(machine.increments[-1]), "N/µm", f"up to {at}: free of an offset")
-    yield KeyValue("machine, secant", _said(machine.secants[-1]), "N/µm", f"force over deflection at {at}")
-    yield KeyValue("set-up, secant", _said(result.springs["set-up"].secants[-1]), "N/µm", f"ball and roller bearing at {at}")
+    yield KeyValue("machine, increment", _said(result, machine.increments[-1]), "N/µm", f"up to {at}: free of an offset")
+    yield KeyValue("machine, secant", _said(result, machine.secants[-1]), "N/µm", f"force over deflection at {at}")
+    yield KeyValue(
+        "set-up, secant", _said(result, result.springs["set-up"].secants[-1]), "N/µm", f"ball and roller bearing at {at}"
+    )
     setup = result.springs["set-up"].secants[-1]
     half = setup.expanded() * UM
-    shown = value_with_uncertainty(setup.value * UM, half) if half else significant(setup.value * UM, 3)
+    shown = value_with_uncertainty(setup.value * UM, half) if result.repeated else significant(setup.value * UM, 3)
     yield KeyValue("set-up", pretty(shown), "µm/N", f"compliance at {at}, to subtract (Eq. 6.5)")
 
 
@@ -100,7 +103,7 @@ def _deflections(result: IndicatorTest) -> Table:
 
 def _secants(result: IndicatorTest) -> Table:
     rows = tuple(
-        (f"{at * UM:.4g}", *(_said(result.springs[name].secants[k]) for name in _NAMES))
+        (f"{at * UM:.4g}", *(_said(result, result.springs[name].secants[k]) for name in _NAMES))
         for k, at in enumerate(result.engagement)
     )
     headings = ("commanded [µm]", *(f"{name} [N/µm]" for name in _NAMES.values()))
@@ -110,7 +113,7 @@ def _secants(result: IndicatorTest) -> Table:
 def _increments(result: IndicatorTest) -> Table:
     ends = result.engagement * UM
     rows = tuple(
-        (f"{low:.4g} to {high:.4g}", *(_said(result.springs[name].increments[k]) for name in ("set-up", "machine")))
+        (f"{low:.4g} to {high:.4g}", *(_said(result, result.springs[name].increments[k]) for name in ("set-up", "machine")))
         for k, (low, high) in enumerate(pairwise(ends))
     )
     headings = ("commanded [µm]", "set-up [N/µm]", "machine [N/µm]")
@@ -129,15 +132,15 @@ def _table(result: IndicatorTest) -> Table:
     return Table(headings, rows, words=(), title="Compliance of the set-up, straight between its points", note=note)
 
 
-def _said(compliance: Estimate) -> str:
-    """A stiffness [N/um] with U to first order; without one where nothing is known of the dials, or zero is inside."""
+def _said(result: IndicatorTest, compliance: Estimate) -> str:
+    """A stiffness [N/um] with U to first order; without one where no repeats show the scatter, or zero is inside."""
     if compliance.value <= 0:
         return "∞"
     value = 1 / (compliance.value * UM)
     half = value * compliance.expanded() / compliance.value
-    if not half:
-        return significant(value, 3)
-    return pretty(value_with_uncertainty(value, half)) if half < value else f"{significant(value, 2)} (not resolved)"
+    if half >= value:
+        return f"{significant(value, 2)} (not resolved)"
+    return pretty(value_with_uncertainty(value, half)) if result.repeated else significant(value, 3)
 
 
 def _document(result: IndicatorTest) -> dict[str, Any]:
@@ -145,6 +148,7 @@ def _document(result: IndicatorTest) -> dict[str, Any]:
         SCHEMA,
         {
             "readings": result.readings,
+            "repeated": result.repeated,
             "resolution_um": result.resolution * UM,
             "engagements": [
                 {"engagement_um": at * UM, "force_N": force, "machine_share": share}
@@ -194,12 +198,12 @@ def _figure(result: IndicatorTest) -> Figure:
     upper.set_ylabel("deflection [µm]")
     upper.legend(loc="upper left")
     for name in ("machine", "set-up"):
-        secants = [_bar(one) for one in result.springs[name].secants]
+        secants = [_bar(result, one) for one in result.springs[name].secants]
         values, sizes = np.array(secants).T
         lower.errorbar(
             at, values, yerr=sizes, fmt="o-", markersize=4, capsize=2, color=colours[name], label=f"{name}, secant"
         )
-    steps = np.array([_bar(one) for one in result.springs["machine"].increments])
+    steps = np.array([_bar(result, one) for one in result.springs["machine"].increments])
     middle, half = (at[1:] + at[:-1]) / 2, np.diff(at) / 2
     lower.errorbar(
         middle, steps[:, 0], yerr=steps[:, 1], xerr=half, fmt="s", markersize=4, color="#56b4e9", label="machine, increment"
@@ -212,9 +216,9 @@ def _figure(result: IndicatorTest) -> Figure:
     return figure
 
 
-def _bar(compliance: Estimate) -> tuple[float, float]:
-    """Stiffness and half its interval; not a number where it does not give way."""
+def _bar(result: IndicatorTest, compliance: Estimate) -> tuple[float, float]:
+    """Stiffness and half its interval, none without repeats; not a number where it does not give way."""
     value = _stiffness_number(compliance)
     if value is None:
         return float("nan"), float("nan")
-    return value, min(value * compliance.expanded() / compliance.value, value)
+    return value, min(value * compliance.expanded() / compliance.value, value) if result.repeated else 0.0

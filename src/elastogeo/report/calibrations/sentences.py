@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from elastogeo.report.numbers import probability, significant
+from elastogeo.report.numbers import p_said, significant
 from elastogeo.report.sentences import Facts, says
 from elastogeo.report.text import UM, in_micrometres
 
@@ -14,10 +14,10 @@ def force_on_a_line(facts: Facts, passed: bool | None) -> str:
     """Whether the force goes with the pressure along a straight line."""
     most = f"{significant(facts['nonlinearity'], 2)} N"
     if passed:
-        chance = probability(facts["p_value"])
-        return f"No reading is further than {most} from the straight line, and no bend shows (p = {chance})."
+        chance = p_said(facts["p_value"])
+        return f"No reading is further than {most} from the straight line, and no bend shows ({chance})."
     return (
-        f"The readings bend (p = {probability(facts['p_value'])}, up to {most} from the line): the calibration is a table "
+        f"The readings bend ({p_said(facts['p_value'])}, up to {most} from the line): the calibration is a table "
         f"of {facts['levels']} pressures, interpolated between them. Calibrate at the pressures of the test."
     )
 
@@ -43,9 +43,9 @@ def deflection_in_proportion(facts: Facts, passed: bool | None) -> str:
     """Whether the set-up gives way in proportion (Eq. 5.38)."""
     most = f"{in_micrometres(facts['greatest'], 2)} µm"
     if passed:
-        return f"The readings leave Eq. 5.38 by {most} at most, and no bend shows (p = {probability(facts['p_value'])})."
+        return f"The readings leave Eq. 5.38 by {most} at most, and no bend shows ({p_said(facts['p_value'])})."
     return (
-        f"The deflection bends with the pressure (p = {probability(facts['p_value'])}, up to {most} from the line): a joint "
+        f"The deflection bends with the pressure ({p_said(facts['p_value'])}, up to {most} from the line): a joint "
         f"of the set-up gives, or the post slips. Tighten it and read again; one number does not describe it."
     )
 
@@ -72,11 +72,11 @@ def set_up_constant(facts: Facts, passed: bool | None) -> str:
     said = f"{_stiffnesses(facts['secants_mm_per_N'])} N/µm"
     if passed is None:
         return f"Not tested: neither the resolution of the dials nor a repeat says how well {said} are known."
-    chance = probability(facts["p_value"])
+    chance = p_said(facts["p_value"])
     if passed:
-        return f"One compliance describes ball and roller at every engagement ({said}, p = {chance})."
+        return f"One compliance describes ball and roller at every engagement ({said}, {chance})."
     return (
-        f"The set-up is not equally stiff at every engagement ({said}, p = {chance}): take the table over the engagement, "
+        f"The set-up is not equally stiff at every engagement ({said}, {chance}): take the table over the engagement, "
         f"not one constant."
     )
 
@@ -86,9 +86,11 @@ def readings_repeated(facts: Facts, passed: bool | None) -> str:
     """Whether repeats show the scatter."""
     if passed:
         return f"{facts['repeats']} repeats within {facts['engagements']} engagements show the scatter."
-    known = facts["resolution_mm"] > 0
-    only = "the uncertainties hold the resolution of the dials and what was stated" if known else "there is no interval"
-    return f"Not tested: each engagement was read once; {only}. Press several times to each."
+    known = "; the dials' resolution alone, which the checks use, is less than that" if facts["resolution_mm"] > 0 else ""
+    return (
+        f"Not tested: each engagement was read once, so no interval holds what readings scatter{known}. Press three times "
+        f"to each."
+    )
 
 
 def _stiffnesses(compliances: Sequence[float]) -> str:

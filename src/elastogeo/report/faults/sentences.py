@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from elastogeo.report.numbers import probability
+from elastogeo.report.numbers import p_said
 from elastogeo.report.sentences import Facts, says
 
 
@@ -10,8 +10,7 @@ from elastogeo.report.sentences import Facts, says
 def unchanged(facts: Facts, passed: bool | None) -> str:
     """Which parameters changed."""
     if passed:
-        p_value = probability(facts["p_value"])
-        return f"No parameter changed by more than the uncertainty of the two tests (p = {p_value})."
+        return f"No parameter changed by more than the uncertainty of the two tests ({p_said(facts['p_value'])})."
     if facts["changed"]:
         return f"{', '.join(facts['changed'])} changed by more than the uncertainty of the two tests."
-    return f"Together the parameters changed (p = {probability(facts['p_value'])}), none of them by itself."
+    return f"Together the parameters changed ({p_said(facts['p_value'])}), none of them by itself."

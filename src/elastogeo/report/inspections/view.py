@@ -19,6 +19,7 @@ from elastogeo.report.view import KeyValue, Section, Table, View, views
 SCHEMA = "elastogeo.inspection/1"
 _KINDS = {
     "run": "run file, readings of an instrument",
+    "readings": "set of readings for elastogeo calibrate",
     "log": "log of a control or data logger",
     "recording": "recording of elastogeo record",
     "test": "test file",

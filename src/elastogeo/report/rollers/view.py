@@ -47,6 +47,8 @@ def stiffness_view(found: StiffnessMap) -> View:
     by_direction, by_level, balance = _by_direction(found), _by_level(found), _balance(found)
     joints = parameter_table(found.joints)
     document = stiffness_json(found)
+    low, high = found.overall.stiffness_interval[[found.overall.stiffness.argmin(), found.overall.stiffness.argmax()]]
+    apart = "" if low[1] < high[0] else "; their 95 % intervals overlap"
     return View(
         kind="Stiffness map",
         title=test.machine.name,
@@ -54,7 +56,7 @@ def stiffness_view(found: StiffnessMap) -> View:
         origin=origin(test),
         head=head(test),
         sentence=f"Softest at {softest.direction}°, {softest.stiffness} N/µm; stiffest at {stiffest.direction}°, "
-        f"{stiffest.stiffness} N/µm. {attention_sentence(checks)}",
+        f"{stiffest.stiffness} N/µm{apart}. {attention_sentence(checks)}",
         values=tuple(_values(found)),
         picture=_picture(
             "stiffness",

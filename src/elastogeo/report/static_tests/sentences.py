@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from elastogeo.report.numbers import probability, significant
+from elastogeo.report.numbers import p_said, significant
 from elastogeo.report.sentences import Facts, says
 from elastogeo.report.text import UM
 
@@ -122,7 +122,7 @@ def reciprocity(facts: Facts, passed: bool | None) -> str:
         return f"Not tested: {facts['why']}."
     said = (
         f"C_ij and C_ji differ by {significant(facts['greatest'] * _MICRO)} nm/N at most, chi-squared "
-        f"{significant(facts['chi_squared'])} of three (p = {probability(facts['p_value'])})"
+        f"{significant(facts['chi_squared'])} of three ({p_said(facts['p_value'])})"
     )
     return f"{said}{'.' if passed else ': look at the directions of the probes and of the force.'}"
 
