@@ -346,3 +346,18 @@ def test_temperatures_that_no_test_has_are_refused() -> None:
         Positioning("C", axis_at=WARM)
     with pytest.raises(InputError, match="X is not read along a linear axis"):
         Positioning("X", direction=(0, 1, 0), axis_at=WARM)
+
+
+def test_tests_of_several_places_count_their_polynomials_from_one_centre() -> None:
+    """One curve of X, 1e-5 x + 1e-7 x^2, read left and right of zero: alone each has another E_XX1, together they have one."""
+    tests = []
+    for name, low, high in (("left", -300.0, 0.0), ("right", 0.0, 300.0)):
+        places = np.linspace(low, high, 7) + np.array([0.0, 3.0, -5.0, 2.0, 7.0, -4.0, 0.0])
+        target, sense = np.tile(np.concatenate([places, places[::-1]]), 3), np.tile(np.repeat([1.0, -1.0], 7), 3)
+        run = run_of(list(target), direction=list(sense), deviation=list(1e-5 * target + 1e-7 * target**2))
+        tests.append(MachineTest(name, machine("wFXYt"), Positioning("X"), (run,), Question(("E_XX1", "E_XX2"))))
+    assert [identify(test)["E_XX1"].value for test in tests] == pytest.approx([1e-5 - 3e-5, 1e-5 + 3e-5])
+    together = identify(tests)
+    assert together.rmse < 1e-12
+    assert together["E_XX1"].value == pytest.approx(1e-5)
+    assert together["E_XX2"].value == pytest.approx(1e-7)

@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 
+import numpy as np
+
 from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
 from elastogeo.machine import Machine
@@ -100,8 +102,17 @@ class Campaign(ByValue):
         return "; ".join(_each_once(test.simulated for test in self.tests.values() if test.simulated))
 
     def observations(self) -> dict[str, tuple[Observations, ...]]:
-        """The observations of every test, as `MachineTest.observations`."""
-        return {name: test.observations() for name, test in self.tests.items()}
+        """The observations of every test, as `MachineTest.observations`.
+
+        Of several tests, polynomials of the commands count from one centre, the middle of theirs: else `E_XX1` beside
+        `E_XX2` would be another number in each.
+        """
+        found = {name: test.observations() for name, test in self.tests.items()}
+        centres = np.array([run.centre for runs in found.values() for run in runs[:1]])
+        if not len(centres) or not np.ptp(centres, axis=0).any():
+            return found
+        centre = (centres.min(axis=0) + centres.max(axis=0)) / 2
+        return {name: tuple(replace(run, centre=centre) for run in runs) for name, runs in found.items()}
 
 
 Askable = MachineTest | Campaign | Sequence[MachineTest] | Mapping[str, MachineTest]
