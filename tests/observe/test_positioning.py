@@ -349,7 +349,7 @@ def test_temperatures_that_no_test_has_are_refused() -> None:
 
 
 def test_tests_of_several_places_count_their_polynomials_from_one_centre() -> None:
-    """One curve of X, 1e-5 x + 1e-7 x^2, read left and right of zero: alone each has another E_XX1, together they have one."""
+    """One curve of X, 1e-5 x + 1e-7 x^2, read left and right of zero: alone each has its E_XX1, together they have one."""
     tests = []
     for name, low, high in (("left", -300.0, 0.0), ("right", 0.0, 300.0)):
         places = np.linspace(low, high, 7) + np.array([0.0, 3.0, -5.0, 2.0, 7.0, -4.0, 0.0])
