@@ -11,6 +11,7 @@ from elastogeo.identification import StiffnessMap, map_stiffness
 from elastogeo.identification.rollers.curves import curves_of
 from elastogeo.identification.rollers.laws import choose_law
 from elastogeo.observe import MachineTest
+from elastogeo.report import view_of
 from studies.ball_roller import (
     COULOMB,
     EFFICIENCY,
@@ -79,6 +80,16 @@ def test_it_is_said_that_no_law_holds_and_that_the_rise_is_an_offset(thesis: Sti
     assert (thesis.overall.interval[:, 0] <= 17e-3 / 247.7).mean() >= 0.9
     facts = next(check.facts for check in thesis.verdict if check.name == "secants free of an offset")
     assert facts["share"] == pytest.approx(0.6, abs=0.1), "18 of 30 um at the least engagement"
+
+
+def test_a_law_that_does_not_hold_is_shown_as_such(thesis: StiffnessMap) -> None:
+    """On the page: secants 6.3 to 11.6 N/um, increments 10.9 to 14.6; the last increment stands for the machine."""
+    view = view_of(thesis)
+    assert view.tables[0].headings[-1] == "modelled, does not hold [N/µm]"
+    increments, secants = ([float(word) for word in value.value.split(" to ")] for value in view.values[2:])
+    assert_allclose(secants, [6.3, 11.6], atol=0.1)
+    assert_allclose(increments, [10.9, 14.6], atol=0.3)
+    assert "increment, 1041 to 1291 N" in view.picture.caption
 
 
 def test_the_torque_of_a_motor_is_that_of_its_parts(thesis: StiffnessMap) -> None:

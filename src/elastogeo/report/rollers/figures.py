@@ -26,7 +26,7 @@ from elastogeo.report.drawing.style import (
     nice_step,
 )
 from elastogeo.report.drive_terms import effort_unit, term_name
-from elastogeo.report.rollers.rows import UM, kind_name
+from elastogeo.report.rollers.rows import UM, kind_name, modelled_name
 
 _RINGS = 4
 _VALUES_AT = np.radians(67.5)
@@ -85,7 +85,9 @@ def levels_figure(found: StiffnessMap) -> Figure:
         _bars(ax, commanded[:-1] + half, found.increments, k, BLUE, "increment", "s", across=half)
         at = commanded if len(found.modelled) > 1 else commanded[[0, -1]]
         modelled = found.modelled if len(found.modelled) > 1 else found.modelled * 2
-        ax.plot(at, [level.stiffness[k] / UM for level in modelled], "--", color=INK, linewidth=1.0, label="modelled")
+        ax.plot(
+            at, [level.stiffness[k] / UM for level in modelled], "--", color=INK, linewidth=1.0, label=modelled_name(found)
+        )
         ax.set_title(f"along {name}")
         ax.set_xlabel("commanded engagement [µm]")
         ax.set_xticks(commanded)

@@ -105,6 +105,11 @@ def span(levels: Sequence[Stiffness]) -> str:
     return said[0] if len(levels) == 1 or said[0] == said[1] else " to ".join(said)
 
 
+def modelled_name(found: StiffnessMap) -> str:
+    """What the slope of the best law is called: `modelled`, and that it does not hold where no law does."""
+    return "modelled" if found.law.follows else "modelled, does not hold"
+
+
 def overall_name(found: StiffnessMap) -> str:
     """What the stiffness by direction is: `modelled`, `increment 1010 to 1550 N`."""
     return kind_name(found.overall)

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from elastogeo.report.numbers import p_said
 from elastogeo.report.sentences import Facts, says
 from elastogeo.report.text import UM
 
@@ -40,7 +41,7 @@ def engagements_follow(facts: Facts, passed: bool | None) -> str:
         return f"What the {facts['law']} law leaves of the engagements ({facts['rms_mm'] * UM:.2g} µm) is their scatter."
     return (
         f"The {facts['law']} law leaves {facts['rms_mm'] * UM:.2g} µm of the engagements, more than their scatter "
-        f"(p = {facts['p_value']:.2g}): its intervals do not hold, the secants and increments do."
+        f"({p_said(facts['p_value'])}): its intervals do not hold, the secants and increments do."
     )
 
 

@@ -17,6 +17,7 @@ from elastogeo.report.rollers.rows import (
     balance_rows,
     force_rows,
     level_rows,
+    modelled_name,
     overall_name,
     rig_rows,
     span,
@@ -32,7 +33,7 @@ _KINDS = (
     "Three kinds of stiffness, each at every engagement. The secant is Eq. 6.5: force over deflection, less the set-up's. "
     "It holds what the path is off and what gives way before the least engagement, so it changes with the engagement even "
     "where the machine does not stiffen. The increment is the slope from one engagement to the next, and free of that. "
-    "Modelled is the slope of the law that all engagements support."
+    "Modelled is the slope of the law that all engagements support, where one does."
 )
 
 
@@ -109,7 +110,7 @@ def _by_direction(found: StiffnessMap) -> Table:
 
 def _by_level(found: StiffnessMap) -> Table:
     return Table(
-        ("engagement [µm]", "force [N]", "secant (6.5) [N/µm]", "increment [N/µm]", "modelled [N/µm]"),
+        ("engagement [µm]", "force [N]", "secant (6.5) [N/µm]", "increment [N/µm]", f"{modelled_name(found)} [N/µm]"),
         tuple((r.engagement, r.force, r.secant, r.increment, r.modelled) for r in level_rows(found)),
         words=(),
         title="Stiffness by engagement",
