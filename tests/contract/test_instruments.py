@@ -25,6 +25,7 @@ from elastogeo.report import sentence_of
 from elastogeo.sources import (
     Situation,
     Source,
+    alike_at_the_tool,
     catalogue,
     design_rows,
     exact_response,
@@ -207,6 +208,18 @@ def test_a_purely_radial_force_cannot_tell_mirrored_terms(any_case: Case) -> Non
     for name, source in sources.items():
         twin = f"C_{name[3]}{name[2]}{name[4]}"
         assert_allclose(column[name], column[twin], rtol=0, atol=1e-10 * scale[source.unit])
+
+
+def test_no_instrument_at_the_tool_tells_joints_in_a_row_apart(any_case: Case) -> None:
+    """Linear joints with no rotary joint between: identical columns. What reads across some sees these alone."""
+    test = any_case.test(forces=(300.0,), readings=12)
+    observed = test.observations()[0]
+    for names in alike_at_the_tool(test.machine):
+        columns = design_rows(select_sources(test.machine, names), test.machine, observed)[:, :-1]
+        seen = np.array([observed.sees(name[-1]) for name in names])
+        assert_allclose(columns[:, seen], np.broadcast_to(columns[:, seen][:, :1], columns[:, seen].shape), atol=1e-9)
+        assert not columns[:, ~seen].any()
+        assert observed.span is not None or seen.all()
 
 
 def test_a_deficient_question_is_refused_and_named(

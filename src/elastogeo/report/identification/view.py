@@ -28,6 +28,7 @@ from elastogeo.report.identification.words import (
 from elastogeo.report.numbers import pretty, probability, significant, value_with_uncertainty, written_unit
 from elastogeo.report.text import (
     MOST_TERMS,
+    ParameterRow,
     all_separated,
     combination,
     display_units,
@@ -98,9 +99,18 @@ def key_values(result: Identification) -> tuple[KeyValue, ...]:
     """The parameters that move the readings most."""
     rows = dict(zip((p.name for p in result.parameters), parameter_rows(result), strict=True))
     top = sorted((p for p in result.parameters if p.axis), key=lambda p: p.share, reverse=True)[:KEY_VALUES]
-    return tuple(
-        KeyValue(rows[p.name].name, pretty(rows[p.name].value), rows[p.name].unit, rows[p.name].meaning) for p in top
-    )
+    return tuple(_key_value(p, rows[p.name]) for p in top)
+
+
+def _key_value(parameter: Parameter, row: ParameterRow) -> KeyValue:
+    return KeyValue(row.name, pretty(row.value), row.unit, pretty(_what_it_is(parameter, row.meaning)))
+
+
+def _what_it_is(parameter: Parameter, meaning: str) -> str:
+    """What a value means; of one that is a sum, the sum first: no member of it alone has this value."""
+    if len(parameter.stands_for) == 1 or not parameter.separated:
+        return meaning
+    return f"the sum {combination(parameter.stands_for, MOST_TERMS)}; {meaning}"
 
 
 def parameter_table(result: Identification) -> Table:
