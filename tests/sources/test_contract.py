@@ -25,12 +25,21 @@ MOVED = 0.01
 """By about how much [mm] each parameter of a truth moves the readings."""
 
 
+TRAVEL = dict.fromkeys("XYZ", (-900.0, 1000.0))
+UNKNOWN = (-np.inf, np.inf)
+
+
+def offset_of(random: np.random.Generator) -> tuple[float, float, float]:
+    x, y, z = map(float, random.uniform(-200, 200, 3))
+    return x, y, z
+
+
 def five_axes() -> Machine:
-    """An offset five-axis machine whose axes have pitches."""
+    """An offset five-axis machine whose axes have pitches, and screws of known travel."""
     topology, random = parse_topology("wCAFYXZSt"), np.random.default_rng(4)
     pitch = {**dict.fromkeys("XYZ", 20.0), **dict.fromkeys("AC", 0.5)}
     joints = tuple(
-        Joint(axis, tuple(map(float, random.uniform(-200, 200, 3))), pitch=pitch.get(axis), compliant=axis != "S")
+        Joint(axis, offset_of(random), travel=TRAVEL.get(axis, UNKNOWN), pitch=pitch.get(axis), compliant=axis != "S")
         for axis in topology.axes
     )
     return Machine("five axes", topology, joints, tool=(10.0, -20.0, 90.0))
