@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from elastogeo.equality import ByValue
-from elastogeo.machine import Array, Force, Length, Pressure
+from elastogeo.machine import Array, Feed, Force, Length, Pressure
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -24,6 +24,8 @@ class Run(ByValue):
         Pressure level, if the force follows from it.
     engagement : float or None [mm]
         Commanded engagement of a roller in a ball; zero or none where it only circles around it.
+    feed : float or None [mm/s]
+        Speed along the path, if it is not that of the set-up.
     sense : int
         +1 counter-clockwise, -1 clockwise.
     repeat : int
@@ -45,6 +47,7 @@ class Run(ByValue):
     force: Force | None = None
     pressure: Pressure | None = None
     engagement: Length | None = None
+    feed: Feed | None = None
     sense: int = 1
     repeat: int = 1
     notes: tuple[str, ...] = ()

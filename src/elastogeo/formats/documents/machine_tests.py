@@ -24,7 +24,7 @@ from elastogeo.formats.text.fingerprint import sha256_of
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.formats.text.units import UNITS
-from elastogeo.machine import About, Force, Length, Pressure, Time
+from elastogeo.machine import About, Feed, Force, Length, Pressure, Time
 from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, check_runs, instrument_named, turning
 
 SCHEMA = "elastogeo.test/1"
@@ -50,6 +50,8 @@ class RunDocument:
         Of a loaded bar, in place of the force; needs a calibration.
     engagement : float or None [mm]
         Of a ball-roller run.
+    feed : float or None [mm/s]
+        Speed along the path, if it is not that of the set-up.
     sense : str
         ccw or cw; by default the one that the angles show.
     repeat : int
@@ -63,13 +65,16 @@ class RunDocument:
     force: Force | None = None
     pressure: Pressure | None = None
     engagement: Length | None = None
+    feed: Feed | None = None
     sense: str = ""
     repeat: int = 1
     start: Time | None = None
     end: Time | None = None
 
     def __post_init__(self) -> None:
-        """Refuse a sense of rotation that is none, and a part of a log that is empty."""
+        """Refuse a feed or a sense of rotation that is none, and a part of a log that is empty."""
+        if self.feed is not None and not self.feed > 0:
+            raise InputError(f"the feed of a run is {self.feed * 60:g} mm/min; it must be positive")
         if self.start is not None and self.end is not None and not self.start < self.end:
             raise InputError(f"the run begins at {self.start:.6g} s and ends at {self.end:.6g} s; let it end later")
         if self.sense and self.sense not in _SENSES:
@@ -259,6 +264,7 @@ def _run(document: RunDocument, table: Table, folder: Path) -> Run:
         force=document.force,
         pressure=document.pressure,
         engagement=document.engagement,
+        feed=document.feed,
         sense=_SENSES[sense],
         repeat=document.repeat,
         notes=tuple(table.metadata.get("clock", "").splitlines()),

@@ -162,7 +162,7 @@ def prepared(machine: Machine, systems: Systems, retained: Sequence[str], angula
     shapes = shapes_of(systems, retained, [*labels, *nodes, *gains], blocks, columns.ceilings, angular)
     names = [*(f"H_{label[2:]}" for label in columns.contact), CONTACT] if columns.contact else []
     amounts = np.array([values[list(retained).index(label)] for label in columns.contact])
-    each = (shapes.of(nodes) * shapes.lengths_of(nodes)).reshape(-1, len(NODES), len(columns.contact))
+    each = (shapes.of(nodes) * shapes.lengths_of(nodes)).reshape(len(shapes.reading), len(NODES), len(columns.contact))
     contact = np.concatenate([each, each @ amounts[:, np.newaxis]], axis=2).swapaxes(0, 1)
     shapes = shapes.with_columns(names, _between(contact, HERTZ)) if names else shapes
     places = {label: offer.place for label, offer in zip(labels, columns.offers, strict=True)}

@@ -124,7 +124,7 @@ class LoadedBallBar(OnCircle):
         """
         angle = self._angle(run)
         tool = None if self.tool is None else np.array(self.tool)
-        rate = run.sense * self.feed / self.circle.radius
+        rate = run.sense * (run.feed or self.feed) / self.circle.radius
         commands = follow(machine, self.circle.centre, self.circle.motion(angle, rate), tool)
         force = self.force(run)
         direction = np.zeros((len(angle), 6), order="F")

@@ -242,7 +242,7 @@ class BallRoller(OnCircle):
         angle = np.sort(run.columns["angle"])[:: run.sense]
         engagement = run.engagement or 0.0
         path = replace(self.circle, radius=self.circle.radius - engagement)
-        rate = run.sense * self.feed / path.radius
+        rate = run.sense * (run.feed or self.feed) / path.radius
         commands = follow(machine, self.circle.centre, path.motion(angle, rate), self._tool)
         direction = commands.displacement / path.radius
         blank = Observations(
