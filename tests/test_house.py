@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 import elastogeo
+from elastogeo.cli.app import commands
 
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
@@ -70,13 +71,9 @@ def test_readme_make_commands_exist() -> None:
 def test_readme_elastogeo_commands_exist() -> None:
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     blocks = "".join(re.findall(r"^```bash\n(.*?)^```", readme, flags=re.MULTILINE | re.DOTALL))
-    commands = sorted(set(re.findall(r"^(?:\.venv/bin/)?elastogeo ([a-z]\w*)", blocks, flags=re.MULTILINE)))
-    assert commands
-    for command in commands:
-        run = subprocess.run(
-            [sys.executable, "-m", "elastogeo", command, "--help"], capture_output=True, text=True, check=False
-        )
-        assert run.returncode == 0, f"README shows `elastogeo {command}`: {run.stderr}"
+    shown = set(re.findall(r"^(?:\.venv/bin/)?elastogeo ([a-z]\w*)", blocks, flags=re.MULTILINE))
+    assert shown
+    assert shown <= {command.__name__ for command in commands()}
 
 
 @pytest.mark.parametrize("package", subpackages())
