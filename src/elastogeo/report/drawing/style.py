@@ -82,6 +82,8 @@ def new_figure(height: float, top: float = 1.0, width: float = WIDTH) -> Figure:
 
 def laid_out(figure: Figure) -> Figure:
     """The figure with everything in its place for an SVG file, so that saving it need not draw it once before for this."""
+    for axis in (axis for ax in figure.axes for axis in (ax.xaxis, ax.yaxis) if not axis.get_label_text()):
+        axis.set_label_coords(0, 0)  # without a label there is no place to look for
     layout = figure.get_layout_engine()
     if layout is not None:
         FigureCanvasSVG(figure)  # measures letters as the file has them
