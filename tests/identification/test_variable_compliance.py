@@ -56,7 +56,7 @@ def test_a_force_that_varies_within_a_run_is_taken_reading_by_reading(make_test)
         pushed = replace(run, wrench=run.wrench * (1 + 0.3 * np.cos(2 * run.pose) + 0.1 * np.sin(run.pose))[:, np.newaxis])
         observations.append(replace(pushed, reading=linear_response(truth, test.machine, pushed)))
     systems = systems_of(test, observations)
-    assert systems.own
+    assert all(run.set_up_names for run in systems.runs)
     found = variable_compliance(systems, ("C_XXX", "C_YYY", "E_XX1", "E_YY1"))
     for name in ("C_XXX", "C_YYY", "CF1_XXX", "CF1_YYY", "E_XX1", "E_YY1"):
         assert found.solution.estimate(name).value == pytest.approx(FALLING[name], rel=1e-7)
@@ -73,6 +73,27 @@ def test_its_uncertainty_at_a_force_is_that_of_the_line(make_test) -> None:
         stated = np.sqrt(np.mean([one.at("C_XXX", force).standard_uncertainty ** 2 for one in found]))
         assert values.mean() == pytest.approx(6.2e-5, abs=4 * stated / np.sqrt(len(found)))
         assert values.std(ddof=1) == pytest.approx(stated, rel=0.3)  # 50 draws: 10 % of scatter
+
+
+def test_what_a_compliance_gains_is_within_its_interval_at_its_rate(make_test, thesis_forces) -> None:
+    """Runs that differ by orders 0, 2 and 3, seven of them: what is called 95 % covers."""
+    test = asked(make_test("wCAFYXZSt", thesis_forces, readings=36))
+    blank, random = simulate(test, FALLING, exact=False), np.random.default_rng(5)
+    angle = blank.runs[0].columns["angle"]
+    held = []
+    for _ in range(50):
+        runs = []
+        for run in blank.runs:
+            waves = (random.normal(0, 5e-4) * np.cos(n * angle + random.uniform(0, 6.3)) for n in (0, 2, 3))
+            scatter = sum(waves) + random.normal(0, 1e-4, len(angle))
+            runs.append(replace(run, columns={**run.columns, "radial": run.columns["radial"] + scatter}))
+        systems = systems_of(replace(blank, runs=tuple(runs)))
+        found = variable_compliance(systems, [source.name for source in systems.sources])
+        assert found.by_run
+        for name in found.elastic:
+            gained = found.change(name, 706.0)
+            held.append(abs(gained.value - 706.0 * FALLING.get(gain_of(name), 0.0)) <= gained.expanded())
+    assert 0.89 < np.mean(held) < 0.99  # 300 intervals, those of one draw hang together
 
 
 def test_it_takes_three_levels_no_reference_and_a_compliance(make_test, thesis_forces) -> None:
