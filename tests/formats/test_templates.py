@@ -84,6 +84,41 @@ def test_a_machine_of_ones_own_is_named_by_its_path_from_the_test(tmp_path: Path
     assert len(read_test("tests/ours").runs) == 6
 
 
+_HEADS = """schema = "elastogeo.machine/1"
+name = "{topology}"
+topology = "{topology}"
+tool_mm = [0, 0, -200]
+[axes.{first}]
+offset_mm = [0, 0, 250]
+[axes.{second}]
+offset_mm = [40, -30, 60]
+travel_deg = [-95, 95]
+"""
+
+
+@pytest.mark.parametrize(("topology", "known"), [("wFXYZCAt", "workpiece"), ("wCYFXZBt", "tool"), ("wCAYFXZt", "tool")])
+def test_a_nest_begins_with_the_rotary_axes_of_the_machine(topology: str, known: str, tmp_path: Path) -> None:
+    """Head-head, head-table, table-table: every location error comes back, alone or in the sum that is said."""
+    first, second = (axis for axis in topology if axis in "ABC")
+    (tmp_path / "mine.toml").write_text(_HEADS.format(topology=topology, first=first, second=second))
+    new_test(tmp_path / "t", str(tmp_path / "mine.toml"), instrument="sphere-nest")
+    assert f'known = ["{known}"]' in (tmp_path / "t" / "test.toml").read_text()
+    result = identify(simulate(tmp_path / "t"))
+    truth = read_simulation(tmp_path / "t" / "simulation.toml").values
+    assert len(truth) == 8 + 3
+    assert set(result.confounding.labels) == set(truth)
+    for parameter in result.parameters:
+        stated = sum(c * truth[name] for name, c in parameter.stands_for.items())
+        assert abs(stated - parameter.value) < 3 * parameter.expanded, parameter.name
+
+
+def test_a_nest_on_a_machine_without_rotary_axes_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text('schema = "elastogeo.machine/1"\nname = "mill"\ntopology = "wXYFZt"\n')
+    with pytest.raises(InputError, match=r"machine 'mill' \(wXYFZt\) has no rotary axis that a sphere nest could look at"):
+        new_test(tmp_path / "t", str(tmp_path / "mine.toml"), instrument="sphere-nest")
+    assert not (tmp_path / "t").exists()
+
+
 def test_levels_and_repeats_are_those_that_were_asked_for(tmp_path: Path) -> None:
     new_test(tmp_path / "bar", forces=[500, 100], repeats=2)
     simulated = simulate(tmp_path / "bar")

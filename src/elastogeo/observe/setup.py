@@ -94,6 +94,11 @@ class Setup(ABC):
         """The observations of all runs of a test, where one may tell something of another; by default one `observe` each."""
         return tuple(self.observe(machine, run) for run in runs)
 
+    @classmethod
+    def template_for(cls, machine: Machine) -> Template | None:  # noqa: ARG003
+        """What a new test on a machine begins with, where that depends on its axes; by default the `template`."""
+        return cls.template
+
     @property
     def file_units(self) -> Mapping[str, str]:
         """Units of columns in a run file, where the name of the column does not say its dimension; empty for a number."""

@@ -129,6 +129,7 @@ def new_test(
     levels = _levels(template, instrument, forces, engagements)
     named = machine or template.machine
     found = find_machine(named, Path.cwd())
+    template = instrument_named(instrument).template_for(found) or template
     text = _TEST.format(
         title=template.title,
         machine=_relative(named, folder),

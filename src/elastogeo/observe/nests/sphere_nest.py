@@ -20,6 +20,7 @@ from elastogeo.observe.directions import unit_vector, unit_vectors
 from elastogeo.observe.displacements import MOST_DISPLACEMENT, check_displacements, read_by, recorded
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
+from elastogeo.observe.nests.beginning import TEMPLATE, template_for
 from elastogeo.observe.nests.motion import BallMotion, planned_commands
 from elastogeo.observe.observations import Observations, check_observations
 from elastogeo.observe.run import Run
@@ -29,68 +30,11 @@ from elastogeo.observe.template import Template
 ENDS = {"tool": "t", "workpiece": "w"}
 """The two ends of the loop, and the letter of the offsets there: `E_Xt0`, `E_Xw0`."""
 
-_INFLUENCE = """\
-[[influences]]
-kind = "sensor-scale"
-label = "calibration of the sensors"
-relative = 0.002
-
-[[influences]]
-kind = "tool-offset"             # of the end that is known, in each direction; or workpiece-offset
-label = "ball against the spindle, run-out and length"
-length_um = 1
-
-"""
-
 STANDING = 1e-7
 """A step of an axis [mm, rad] that is smaller is rounding: the axis stood."""
 
 MOST_TURNS = 10.0
 """Turns of a rotary axis that a run may have."""
-
-_SETUP = """\
-[setup]
-sensors = [[1, 0, 1], [-0.5, 0.866, 1], [-0.5, -0.866, 1]]   # in which the ball moves where each reads positive
-nest = "workpiece"               # the end that carries the nest (the other carries the ball): workpiece or tool
-known = ["tool"]                 # ends whose point is known: the ball's centre, and the place and zeros of the nest
-centre = { X_mm = 150, Y_mm = 80 }   # where the tool point meets the table point, rotary axes at zero
-
-[[setup.motions]]                # of runs that do not record the rotary axes; the linear axes follow the ball
-name = "C turns"
-start = { C_deg = 0 }
-end = { C_deg = 360 }
-
-[[setup.motions]]
-name = "A swings"
-start = { A_deg = -90 }
-end = { A_deg = 30 }
-
-[[setup.motions]]
-name = "both"
-start = { A_deg = -90, C_deg = 0 }
-end = { A_deg = 30, C_deg = 360 }
-"""
-
-_SIMULATION = """\
-readings = 108                   # 36 of each motion
-
-[imperfection]
-noise_um = 0.3
-resolution_um = 0.1
-
-[values]                         # true parameters, in mm, N, rad
-"E_Y(0)A" = 0.012
-"E_Z(0)A" = -0.008
-"E_B(0)A" = 3e-5
-"E_C(0)A" = -2e-5
-"E_X(0A)C" = 0.015
-"E_Y(0A)C" = -0.01
-"E_A(0A)C" = 2e-5
-"E_B(0A)C" = 4e-5
-E_Xw0 = 0.02
-E_Yw0 = -0.03
-E_Zw0 = 0.01
-"""
 
 
 @instrument("sphere-nest")
@@ -134,15 +78,7 @@ class SphereNest(Setup):
 
     extra: ClassVar = "ball-deviations"
     limits: ClassVar = ("sensor",)
-    template: ClassVar = Template(
-        title="Sphere nest about rotary axes",
-        setup=_SETUP,
-        columns="a_deg, c_deg (commands of the rotary axes), displacement_1_um, displacement_2_um, displacement_3_um",
-        simulation=_SIMULATION,
-        level="",
-        repeats=4,
-        influences=_INFLUENCE,
-    )
+    template: ClassVar = TEMPLATE
 
     def __post_init__(self) -> None:
         """Refuse directions that are none, and ends that are none."""
@@ -152,6 +88,11 @@ class SphereNest(Setup):
         for end in (self.nest, *self.known):
             if end not in ENDS:
                 raise InputError(f"{end!r} is no end of the structural loop; write tool or workpiece")
+
+    @classmethod
+    def template_for(cls, machine: Machine) -> Template:
+        """With motions and errors of the machine's own rotary axes."""
+        return template_for(machine)
 
     @property
     def readings(self) -> tuple[str, ...]:
