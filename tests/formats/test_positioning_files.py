@@ -128,3 +128,26 @@ def test_the_temperature_stands_in_the_test_file(tmp_path: Path) -> None:
     (seen,) = test.observations()
     assert_allclose(seen.correction, 23e-6 * np.array([-10, 0, 10, 10, 0, -10]), atol=1e-15)
     assert [one.label for one in seen.influences] == ["temperature of the axis"]
+
+
+@pytest.mark.parametrize(
+    ("axis", "stated", "message"),
+    [
+        ("C", "resolution_um = 0.1", "resolution_um is no resolution of its readings; write resolution_arcsec, since"),
+        ("X", "resolution_arcsec = 0.1", "resolution_arcsec is no resolution of its readings; write resolution_um, since"),
+    ],
+)
+def test_a_resolution_of_another_dimension_is_refused(tmp_path: Path, axis: str, stated: str, message: str) -> None:
+    unit = "mm" if axis == "X" else "deg"
+    folder = folder_with(tmp_path, f"target_{unit},direction,position_{unit}\n{ROWS}", axis, unit)
+    text = (folder / "test.toml").read_text(encoding="utf-8")
+    (folder / "test.toml").write_text(text.replace("[setup]", f"{stated}\n[setup]"), encoding="utf-8")
+    with pytest.raises(FormatError, match=message):
+        read_test(folder)
+
+
+def test_the_resolution_of_an_angular_sensor_is_an_angle(tmp_path: Path) -> None:
+    folder = folder_with(tmp_path, f"target_deg,direction,position_deg\n{ROWS}", "C", "deg")
+    text = (folder / "test.toml").read_text(encoding="utf-8")
+    (folder / "test.toml").write_text(text.replace("[setup]", "resolution_arcsec = 0.36\n[setup]"), encoding="utf-8")
+    assert read_test(folder).resolution == pytest.approx(np.deg2rad(1e-4))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from elastogeo.identification import PositioningResults, evaluate_positioning
+from elastogeo.identification import PositioningResults, evaluate_positioning, identify
 from elastogeo.machine import Machine, parse_topology
 from elastogeo.observe import Imperfection, KnownInfluence, MachineTest, Positioning, Question, Run
 from elastogeo.report import html_page, view_of
@@ -149,3 +149,16 @@ def test_angles_are_shown_as_angles_in_an_identification_too() -> None:
         (axes,) = view.picture.draw().axes
     assert axes.get_ylabel() == "reading (µrad)"
     assert axes.get_xlabel() == "target (mm)"
+
+
+def test_the_resolution_of_angles_is_judged_and_shown_as_an_angle() -> None:
+    """1 urad: the backlash of 0.1 urad is below it, the pitch of 74 urad over the travel is not."""
+    setup = Positioning("X", about=(0.0, 1.0, 0.0), targets=TARGETS)
+    machine = Machine("m", parse_topology("wFXYZt"))
+    blank = MachineTest("test", machine, setup, (Run("run", {}),), Question(("E_BX1", "B_BX")), resolution=1e-6)
+    found = identify(simulate(blank, {"E_BX1": 2e-7, "B_BX": 1e-7}, Imperfection(angle_noise=2e-8), 3, exact=False))
+    view = view_of(found)
+    said = next(check.sentence for check in view.checks if check.name == "above resolution")
+    assert said.startswith("B_BX (0.1 µrad) moves the readings by less than their resolution of 1 µrad")
+    assert ("Resolution", "1.00 µrad") in view.head
+    assert view.document["test"]["resolution_um"] is None

@@ -209,7 +209,9 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
         free_of_assumptions(result.budget),
         drawn,
         free_of_outliers([run.weights for run in systems.runs if run.weights is not None]) if robust else None,
-        above_resolution({p.name: abs(p.peak_to_peak) for p in parameters}, _resolution(campaign)),
+        above_resolution(
+            {p.name: abs(p.peak_to_peak) for p in parameters}, _resolution(campaign), angles=_reads_angles(campaign)
+        ),
         model_adequate(result.models) if result.models else None,
         levels_agree(result.models) if result.models else None,
         geometry_constant(result.models, result.local_change, geometric) if result.models and geometric else None,
@@ -248,8 +250,14 @@ def _shared(systems: Systems, circles: Sequence[str], labels: Sequence[str]) -> 
 
 
 def _resolution(campaign: Campaign) -> float | None:
-    """The coarsest resolution of the tests that state one; None if none does."""
-    return max((test.resolution for test in campaign.tests.values() if test.resolution is not None), default=None)
+    """The coarsest resolution of the tests that state one, of angles only if all read angles; None if none does."""
+    angles = _reads_angles(campaign)
+    alike = (test for test in campaign.tests.values() if test.setup.reads_angles == angles)
+    return max((test.resolution for test in alike if test.resolution is not None), default=None)
+
+
+def _reads_angles(campaign: Campaign) -> bool:
+    return all(test.setup.reads_angles for test in campaign.tests.values())
 
 
 def _goes_around(systems: Systems) -> bool:

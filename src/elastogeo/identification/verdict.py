@@ -195,9 +195,9 @@ def residuals_unstructured(harmonics: Mapping[str, Harmonic], shared: Harmonic |
     return Check("residuals without structure", not left, facts)
 
 
-def above_resolution(effect: Mapping[str, float], resolution: float | None) -> Check:
-    """Whether every retained parameter moves the readings [mm] by more than the instrument can resolve."""
+def above_resolution(effect: Mapping[str, float], resolution: float | None, *, angles: bool = False) -> Check:
+    """Whether every retained parameter moves the readings [mm or rad] by more than the instrument can resolve."""
     if resolution is None:
-        return Check("above resolution", None, {"resolution": None, "below": {}})
+        return Check("above resolution", None, {"resolution": None, "below": {}, "angles": angles})
     below = {name: value for name, value in effect.items() if value < resolution}
-    return Check("above resolution", not below, {"resolution": resolution, "below": below})
+    return Check("above resolution", not below, {"resolution": resolution, "below": below, "angles": angles})

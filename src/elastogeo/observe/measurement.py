@@ -8,7 +8,7 @@ from math import inf
 
 from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
-from elastogeo.machine import About, Force, Forces, Length, Machine
+from elastogeo.machine import About, Force, Forces, Length, Machine, Resolution
 from elastogeo.observe.covariance import with_covariance
 from elastogeo.observe.instruments import instrument_of
 from elastogeo.observe.observations import Observations
@@ -93,7 +93,7 @@ class MachineTest(ByValue):
         Of the instrument.
     runs : tuple of Run
     question : Question
-    resolution : float or None [mm]
+    resolution : float or None [mm, or rad of angles]
         Of the readings.
     influences : tuple of KnownInfluence
         Systematic influences on the readings.
@@ -110,7 +110,7 @@ class MachineTest(ByValue):
     setup: Setup
     runs: tuple[Run, ...]
     question: Question = field(default_factory=Question)
-    resolution: float | None = None
+    resolution: Resolution | None = None
     influences: tuple[KnownInfluence, ...] = ()
     simulated: str = ""
     reconstructed: str = ""

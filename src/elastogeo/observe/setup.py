@@ -100,6 +100,11 @@ class Setup(ABC):
         return cls.template
 
     @property
+    def reads_angles(self) -> bool:
+        """Whether the readings are angles rather than lengths."""
+        return False
+
+    @property
     def file_units(self) -> Mapping[str, str]:
         """Units of columns in a run file, where the name of the column does not say its dimension; empty for a number."""
         return {}

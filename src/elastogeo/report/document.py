@@ -45,7 +45,7 @@ def tested(test: MachineTest, reference_force: float | None) -> dict[str, Any]:
         "instrument": test.instrument,
         "simulated": test.simulated,
         "reference_force_N": reference_force,
-        "resolution_um": in_um(test.resolution),
+        "resolution_um": None if test.setup.reads_angles else in_um(test.resolution),
         "runs": len(test.runs),
         "about": {key: value for key, value in asdict(test.about).items() if value},
         "files": [

@@ -7,7 +7,8 @@ from typing import Any
 
 from elastogeo.machine import About
 from elastogeo.observe import Campaign, MachineTest, campaign_of
-from elastogeo.report.text import in_micrometres
+from elastogeo.report.numbers import significant
+from elastogeo.report.text import MICRO, in_micrometres
 from elastogeo.report.view import Section, Table
 
 _MINUTE = 60.0
@@ -26,7 +27,7 @@ def head(test: MachineTest) -> tuple[tuple[str, str], ...]:
         ("Runs", f"{len(test.runs)}, with {readings} readings"),
         ("Asked for", ", ".join(test.asked)),
         ("Reference", "" if reference is None else f"the readings at {reference:g} N are subtracted"),
-        ("Resolution", "not stated" if test.resolution is None else f"{in_micrometres(test.resolution)} µm"),
+        ("Resolution", _resolution(test)),
         ("Remarks", test.about.remarks),
         ("Files", f"{len(files)}, their SHA-256 below" if files else ""),
     ]
@@ -102,6 +103,13 @@ def _origin_among(campaign: Campaign, kind: str) -> str:
     told = {name: getattr(test, kind) for name, test in campaign.tests.items() if getattr(test, kind)}
     some = f" ({', '.join(told)})" if 0 < len(told) < len(campaign.tests) else ""
     return f"{kind.capitalize()}{some}: {'; '.join(dict.fromkeys(told.values()))}" if told else ""
+
+
+def _resolution(test: MachineTest) -> str:
+    if test.resolution is None:
+        return "not stated"
+    angles = test.setup.reads_angles
+    return f"{significant(test.resolution * MICRO)} µrad" if angles else f"{in_micrometres(test.resolution)} µm"
 
 
 def _path(test: MachineTest) -> str:

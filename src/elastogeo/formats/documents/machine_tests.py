@@ -24,7 +24,7 @@ from elastogeo.formats.text.fingerprint import sha256_of
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.formats.text.units import UNITS
-from elastogeo.machine import About, Feed, Force, Length, Pressure, Time
+from elastogeo.machine import About, Feed, Force, Length, Pressure, Resolution, Time
 from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, check_runs, instrument_named, turning
 
 SCHEMA = "elastogeo.test/1"
@@ -97,7 +97,7 @@ class TestDocument:
     runs: tuple[RunDocument, ...] = ()
     question: Question = field(default_factory=Question)
     influences: tuple[KnownInfluence, ...] = ()
-    resolution: Length | None = None
+    resolution: Resolution | None = None
     simulated: str = ""
     reconstructed: str = ""
     columns: Mapping[str, str] = field(default_factory=dict)
@@ -143,6 +143,7 @@ def read_test(
     found = build(instrument_named(document.instrument), entries, f"{file}, setup")
     for table in tables:
         _check_units(table, found.file_units)
+    _check_resolution(file, angles=found.reads_angles)
     return MachineTest(
         name=document.name,
         machine=find_machine(document.machine, file.parent),
@@ -236,6 +237,15 @@ def _check(runs: tuple[Run, ...], file: Path) -> None:
         check_runs(runs)
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
+
+
+def _check_resolution(file: Path, *, angles: bool) -> None:
+    """Refuse the resolution of angles in a unit of length, and the other way round."""
+    for key in read_document(file):
+        name, _, unit = key.partition("_")
+        if name == "resolution" and UNITS[unit].dimension != ("angle" if angles else "length"):
+            said = "arcsec, since this test reads angles" if angles else "um, since this test reads lengths"
+            raise FormatError(f"{file}: {key} is no resolution of its readings; write resolution_{said}")
 
 
 def _check_units(table: Table, usual: Mapping[str, str]) -> None:

@@ -178,6 +178,11 @@ class Positioning(Setup):
         return self.about is not None or (self.is_rotary and self.direction is None)
 
     @property
+    def reads_angles(self) -> bool:
+        """Whether a rotation is read."""
+        return self.is_angular
+
+    @property
     def is_along(self) -> bool:
         """Whether the positioning of the axis itself is read, as far as the set-up says without its machine."""
         return self.motion in self._letters() and len(self._letters()) == 1

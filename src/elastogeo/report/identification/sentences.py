@@ -8,7 +8,7 @@ from typing import Any
 from elastogeo.report.identification.models import left_out_said, model_said, owners_said, supported_said, together_said
 from elastogeo.report.numbers import display_unit, probability, significant
 from elastogeo.report.sentences import Facts, says
-from elastogeo.report.text import UM
+from elastogeo.report.text import MICRO, UM
 
 REMEDIES = {
     "levels": "add force levels further apart, or another plane",
@@ -207,13 +207,14 @@ def above_resolution(facts: Facts, passed: bool | None) -> str:
     resolution, below = facts["resolution"], facts["below"]
     if passed is None:
         return "Not tested: the test file does not state the resolution of the readings."
+    factor, unit = (MICRO, "µrad") if facts["angles"] else (UM, "µm")
     if passed:
-        return f"Every parameter moves the readings by over {resolution * UM:.2g} µm."
-    named = ", ".join(f"{name} ({value * UM:.2g} µm)" for name, value in below.items())
+        return f"Every parameter moves the readings by over {resolution * factor:.2g} {unit}."
+    named = ", ".join(f"{name} ({value * factor:.2g} {unit})" for name, value in below.items())
     one = len(below) == 1
     return (
-        f"{named} {'moves' if one else 'move'} the readings by less than their resolution of {resolution * UM:.2g} µm; do "
-        f"not rely on {'its value' if one else 'their values'} alone."
+        f"{named} {'moves' if one else 'move'} the readings by less than their resolution of {resolution * factor:.2g} "
+        f"{unit}; do not rely on {'its value' if one else 'their values'} alone."
     )
 
 

@@ -64,8 +64,10 @@ def kind_of(result: Identification, members: Sequence[Parameter]) -> str:
 
 
 def _resolution(result: Identification) -> float | None:
-    """The coarsest resolution [um] of the tests that state one."""
-    stated = [test.resolution * UM for test in result.campaign.tests.values() if test.resolution is not None]
+    """The coarsest resolution [um, or urad where all readings are angles] of the tests that state one."""
+    unit, tests = reading_unit(result), result.campaign.tests.values()
+    alike = [test for test in tests if test.setup.reads_angles == (unit.factor != UM)]
+    stated = [test.resolution * unit.factor for test in alike if test.resolution is not None]
     return max(stated, default=None)
 
 
