@@ -177,7 +177,7 @@ def test_one_cycle_or_two_have_no_interval_and_say_so(count: int) -> None:
     assert found.static_compliance.inverse().value == 1 / found.static_compliance.value
     checks = {check.name: check for check in found.checks}
     assert checks["uncertainty by cycle"].passed is False
-    assert "no interval is given; load three times at least in a run" in sentence_of(checks["uncertainty by cycle"])
+    assert "no uncertainty is given; load three times at least in a run" in sentence_of(checks["uncertainty by cycle"])
     assert checks["energy is lost, not gained"].passed is None
     assert "with fewer than three cycles in a run nothing shows" in sentence_of(checks["energy is lost, not gained"])
     assert found.residual_std == pytest.approx(1e-4, rel=0.3)

@@ -74,8 +74,8 @@ def test_numbers_of_the_tables_are_those_of_the_result(examples: dict[str, Stati
     table = titled(examples["force"], "Static compliance")
     (row,) = [row for row in table.rows if row[0] == "x-500N"]
     # simulation.toml: 6e-5 + 1e-5 + 0.8e-5 mm/N
-    value, half = map(float, row[table.headings.index("compliance [nm/N]")].split(" ± "))
-    assert abs(value - 78.0) < 2 * half
+    value, u = map(float, row[table.headings.index("compliance [nm/N]")].rstrip(")").split(" (u "))
+    assert abs(value - 78.0) < 4 * u
     assert row[1] == "3"
     line = titled(examples["rig"], "Straight line")
     value, half = map(float, line.rows[0][line.headings.index("stiffness [N/µm]")].split(" ± "))
@@ -90,8 +90,9 @@ def test_numbers_of_the_tables_are_those_of_the_result(examples: dict[str, Stati
 def test_columns_that_say_nothing_are_left_out(examples: dict[str, StaticResults], pulled: StaticResults) -> None:
     assert "backlash [µm]" not in titled(examples["force"], "Hysteresis").headings
     table = titled(pulled, "Hysteresis")
-    value, half = map(float, table.rows[0][table.headings.index("backlash [µm]")].split(" ± "))
-    assert abs(value - 2.0) < 2 * half
+    value, u = map(float, table.rows[0][table.headings.index("backlash [µm]")].rstrip(")").split(" (u "))
+    assert abs(value - 2.0) < 6 * u
+    assert "another run may differ by more" in titled(pulled, "Static compliance").note
 
 
 def test_the_drive_has_its_shares(pulled: StaticResults) -> None:
@@ -119,7 +120,8 @@ def test_json_numbers_are_those_of_the_result(examples: dict[str, StaticResults]
     assert run.backlash is not None
     (said,) = place["runs"]
     assert said["backlash"]["value"] == run.backlash.value * 1000
-    assert said["static_compliance"]["interval95"] == [1000 * bound for bound in run.static_compliance.interval()]
+    assert said["static_compliance"]["standard_uncertainty"] == 1000 * run.static_compliance.standard_uncertainty
+    assert said["static_compliance"]["interval95"] is None
     assert [part["names"] for part in place["drive"]["parts"]][:2] == [["servo"], ["transmission"]]
     (weights,) = static_json(examples["rig"])["places"]
     assert weights["runs"][0]["mean_hysteresis"] is None

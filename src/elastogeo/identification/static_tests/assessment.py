@@ -87,10 +87,16 @@ def evaluate_static(test: MachineTest, feedback: str = "motor") -> StaticResults
     if feedback not in FEEDBACKS:
         raise InputError(f"a position loop is closed on {feedback!r}; say {' or '.join(FEEDBACKS)}")
     observed = test.observations()
-    joints = identify_observed(test, observed)
-    moved = tuple(moved_observations(with_stated(test, observed)))
-    found = _EVALUATED[test.setup.extra](test, joints, observed, moved, feedback)
+    found = shown_by_instrument(test, identify_observed(test, observed), observed, feedback)
     return replace(found, verdict=(*found.verdict, *found.joints.verdict))
+
+
+def shown_by_instrument(
+    test: MachineTest, joints: Identification, observed: Sequence[Observations], feedback: str = "motor"
+) -> StaticResults:
+    """What the instrument shows by itself, beside the joints that were identified from the same observations."""
+    moved = tuple(moved_observations(with_stated(test, observed)))
+    return _EVALUATED[test.setup.extra](test, joints, observed, moved, feedback)
 
 
 def _of_cycles(

@@ -108,7 +108,7 @@ class DisplacementProbes(Setup):
         simulation=_SIMULATION,
         machine="huron_kx8",
         levels=(200.0, 400.0, 600.0),
-        repeats=2,
+        repeats=3,
         influences=FORCE,
     )
 

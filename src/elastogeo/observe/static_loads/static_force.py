@@ -102,6 +102,7 @@ class StaticForce(Setup):
         simulation=_SIMULATION,
         machine="huron_kx8",
         levels=(250.0, 500.0, 750.0),
+        repeats=2,
         influences=FORCE,
     )
 

@@ -11,7 +11,8 @@ places : [{commands, direction, along, runs, line, refusal, drive, drive_refusal
         cycles, branches, left_out : how many there are, and how many branches do not count
         by_cycle : whether there are cycles enough for uncertainties, which come from their scatter
         degree : of the polynomials through the branches
-        static_compliance, rising_secant, falling_secant : numbers [um/N]
+        static_compliance, rising_secant, falling_secant : numbers [um/N]; of a loop, the standard uncertainty is that of the
+            scatter of the run's cycles, and there is no interval
         mean_hysteresis, greatest_hysteresis, hysteresis_at_zero, backlash, remaining : numbers [um], or null
         energy_lost : number [N mm] of one cycle
         refusal : why there is no hysteresis; all the rest is then null
@@ -102,6 +103,12 @@ def _number(found: Estimate | None, scale: float) -> dict[str, Any] | None:
     return None if found is None else {"value": found.value * scale, **uncertainty_entries(found, scale)}
 
 
+def _of_cycles(found: Estimate | None, scale: float) -> dict[str, Any] | None:
+    """As a number, without an interval: the cycles of a run do not show how another run differs."""
+    number = _number(found, scale)
+    return None if number is None else {**number, "interval95": None}
+
+
 def _place(place: LoadedPlace) -> dict[str, Any]:
     return {
         "commands": place.commands,
@@ -125,9 +132,9 @@ def _run(run: LoadedRun) -> dict[str, Any]:
         "by_cycle": found.by_cycle if found else None,
         "degree": found.degree if found else None,
         "force_range_N": found.range if found else None,
-        **{name: _number(getattr(found, name), UM) if found else None for name in _IN_UM},
+        **{name: _of_cycles(getattr(found, name), UM) if found else None for name in _IN_UM},
         "greatest_at_N": found.greatest_at if found else None,
-        "energy_lost": _number(found.energy_lost, 1.0) if found else None,
+        "energy_lost": _of_cycles(found.energy_lost, 1.0) if found else None,
         "residual_std_um": found.residual_std * UM if found else None,
         "refusal": run.refusal,
     }

@@ -49,7 +49,8 @@ def uncertainty_by_cycle(facts: Facts, passed: bool | None) -> str:
         return f"The uncertainties of each run come from the scatter of its cycles, {facts['cycles']} in all."
     runs = ", ".join(filter(None, facts["few"]))
     return (
-        f"Too few cycles{f' in run {runs}' if runs else ''} to show how a further one would differ: no interval is given; "
+        f"Too few cycles{f' in run {runs}' if runs else ''} to show how a further one would differ: no uncertainty is "
+        f"given; "
         f"load {_TIMES.get(facts['needed'], facts['needed'])} times at least in a run."
     )
 

@@ -38,6 +38,7 @@ _MICRO = 1e6
 _NANO = 1e9
 _AXES = "XYZ"
 KEY_VALUES = 5
+_CYCLES = "u: standard uncertainty by the scatter of the run's own cycles; another run may differ by more."
 _CURVE = 200
 """Points of a drawn curve."""
 _POINTS = 1500
@@ -61,7 +62,9 @@ def _loading(places: Sequence[LoadedPlace]) -> Iterator[Table]:
     cycled = [run for place in places for run in place.runs if run.hysteresis is not None]
     if cycled:
         headings = ("run", "cycles", "forces [N]", "compliance [nm/N]", "mean hysteresis [µm]", "energy lost [N·mm]")
-        yield Table(headings, tuple(map(_hysteresis_row, cycled)), title="Static compliance and hysteresis")
+        rows, title = tuple(map(_hysteresis_row, cycled)), "Static compliance and hysteresis"
+        shown = any(run.hysteresis is not None and run.hysteresis.by_cycle for run in cycled)
+        yield Table(headings, rows, title=title, note=_CYCLES if shown else "")
         headings = ("run", "greatest [µm]", "at [N]", "at zero force [µm]", "backlash [µm]", "remaining [µm]")
         yield _filled(Table(headings, tuple(map(_widths_row, cycled)), title="Hysteresis at a force"))
     lines = tuple(_line_row(place) for place in places if place.line is not None)
@@ -90,9 +93,9 @@ def _hysteresis_row(run: LoadedRun) -> tuple[str, ...]:
         run.run,
         str(len(found.cycles)),
         f"{low:.4g} to {high:.4g}",
-        _said(found.static_compliance, _MICRO),
-        _said(found.mean_hysteresis, UM),
-        _said(found.energy_lost, 1.0),
+        _of_cycles(found.static_compliance, _MICRO),
+        _of_cycles(found.mean_hysteresis, UM),
+        _of_cycles(found.energy_lost, 1.0),
     )
 
 
@@ -101,11 +104,11 @@ def _widths_row(run: LoadedRun) -> tuple[str, ...]:
     assert found is not None
     return (
         run.run,
-        _said(found.greatest_hysteresis, UM),
+        _of_cycles(found.greatest_hysteresis, UM),
         f"{found.greatest_at:.4g}",
-        _said(found.hysteresis_at_zero, UM),
-        _said(found.backlash, UM),
-        _said(found.remaining, UM),
+        _of_cycles(found.hysteresis_at_zero, UM),
+        _of_cycles(found.backlash, UM),
+        _of_cycles(found.remaining, UM),
     )
 
 
@@ -218,7 +221,7 @@ def key_values(found: StaticResults) -> tuple[KeyValue, ...]:
         loops = [run for run in place.runs if run.hysteresis is not None]
         for run in loops[:1]:
             assert run.hysteresis is not None
-            hysteresis = _said(run.hysteresis.mean_hysteresis, UM)
+            hysteresis = _of_cycles(run.hysteresis.mean_hysteresis, UM)
             values.append(KeyValue("mean hysteresis", hysteresis, "µm", f"run {run.run}"))
     if found.cartesian is not None:
         names = ("softest", "middle", "stiffest")
@@ -311,6 +314,14 @@ def _on(at: Array, ends: Array, values: Array) -> Array:
 
 def _said(estimate: Estimate | None, scale: float) -> str:
     return "" if estimate is None else _said_half(estimate.value, estimate.interval(), scale)
+
+
+def _of_cycles(estimate: Estimate | None, scale: float) -> str:
+    """A value with the standard uncertainty that the cycles of its run show: no interval, as they do not show other runs."""
+    if estimate is None:
+        return ""
+    value = significant(estimate.value * scale, 4)
+    return f"{value} (u {significant(estimate.standard_uncertainty * scale, 2)})" if estimate.known else value
 
 
 def _said_half(value: float, interval: Sequence[float], scale: float) -> str:
