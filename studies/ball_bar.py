@@ -130,7 +130,8 @@ class Circles:
         """Change of the bar's length without any noise, shape (runs, m) [mm]."""
         stated = np.repeat(self.forces, self.readings)
         most = max(map(abs, self.forces)) or 1.0
-        force = stated * (1.0 + truth.force_scale) * (1.0 + truth.force_bend * (1.0 - np.abs(stated) / most))
+        of_run = 1.0 + np.repeat(truth.force_scatter or (0.0,) * len(self.forces), self.readings)
+        force = stated * of_run * (1.0 + truth.force_scale) * (1.0 + truth.force_bend * (1.0 - np.abs(stated) / most))
         before, after = self.twists(truth, force, most)
         frames = self.chain.frames(self.commands(truth), before, after)
         shifts = {end: np.zeros(3) for end in "tw"}

@@ -1,4 +1,4 @@
-"""How often the intervals of a static instrument hold the truth: those of the joints, and those of what it shows by itself."""
+"""How often the intervals of a static instrument hold the truth: of the joints, and of what it shows by itself."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """Tests of static instruments as their templates begin them, their readings written out by hand.
 
 Truth is a compliance of translations at X, Y and Z of a machine that stands straight: the tool gives way by the sum of the
-matrices, wherever a sensor touches. Probes and bar turn with the table, the other way round than its command. Noise is that of
-`studies.noise`, by sensor, along the angle of a loading cycle or of the table.
+matrices, wherever a sensor touches. Probes and bar turn with the table, the other way round than its command. Noise is that
+of `studies.noise`, by sensor, along the angle of a loading cycle or of the table.
 """
 
 from __future__ import annotations

@@ -63,6 +63,8 @@ class Truth:
         In every run, whatever its force.
     force_scale : float
         The true force is the stated one times 1 + this.
+    force_scatter : tuple of float
+        By which relative amount the force of each run is off beside that; empty for none.
     force_bend : float
         The true force is larger than the stated one by this share near no force, and equal at the greatest.
     setup_compliance : float [mm/N]
@@ -80,6 +82,7 @@ class Truth:
     four_lobe: float = 0.0
     harmonics: tuple[tuple[int, float, float], ...] = ()
     force_scale: float = 0.0
+    force_scatter: tuple[float, ...] = ()
     force_bend: float = 0.0
     setup_compliance: float = 0.0
     off_level: tuple[tuple[float, float, int], ...] = ()

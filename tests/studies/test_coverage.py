@@ -7,11 +7,13 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy import stats
 
-from elastogeo.identification import identify
+from elastogeo.identification import evaluate_static, identify
 from elastogeo.observe import Question
 from studies.bar_tests import make_test
-from studies.coverage import CASES, TOO_FEW, Coverage, covered, drawn, page_of
+from studies.coverage import CASES, SET_ANEW, TOO_FEW, Coverage, covered, drawn, noises_of, page_of, row_of, rows_of
 from studies.noise import NOISES
+from studies.roller_coverage import ROLLER
+from studies.static_coverage import STATIC, made, shown, static_covered
 
 
 @pytest.mark.parametrize("layout", CASES)
@@ -70,11 +72,57 @@ def test_intervals_cover(layout: str, noise: str) -> None:
 
 def test_the_page_marks_what_does_not_hold() -> None:
     good = Coverage("7 runs", "white", 300, {"C_XXX": 285, "C_YYY": 287}, (2.5, 3.2))
-    bad = Coverage("7 runs", "white", 300, {"C_XXX": 200, "C_YYY": 287}, (2.5, 3.2))
+    bad = Coverage("7 runs", "quantised", 300, {"C_XXX": 200, "C_YYY": 287}, (2.5, 3.2))
     assert good.holds
     assert not bad.holds
-    page = page_of([good, bad])
+    page = page_of({(one.layout, one.noise): row_of(one) for one in (good, bad)})
+    assert rows_of(page)["7 runs", "quantised"].endswith("| **no** |")
     assert "| 95.3% | C_XXX 95.0% | C_YYY 95.7% | 2.5 to 3.2 | yes |" in page
     assert "C_XXX 66.7%" in page
     assert "**no**" in page
     assert set(NOISES) >= {"white", "autocorrelated", "of the run", "harmonic", "quantised", "eccentricity"}
+
+
+@pytest.mark.parametrize("layout", STATIC)
+def test_static_templates_give_every_result_an_interval_and_the_study_counts_it(layout: str) -> None:
+    """One trial, all of it: what the study counts is what `evaluate_static` prints, its drawn intervals apart."""
+    one = made(layout, "of the run", 4)
+    found = evaluate_static(one.test)
+    assert found.joints.by_run
+    assert all(parameter.interval is not None for parameter in found.joints.parameters)
+    counted, _ = static_covered(layout, "of the run", range(4, 5))
+    own = {}
+    for name, estimate in shown(found):
+        assert estimate.known
+        low, high = estimate.interval()
+        own[name] = low <= one.shown[name] <= high
+    assert set(own) == set(one.shown)
+    assert {name: bool(counted[name]) for name in own} == own
+    assert set(counted) - set(own) == {parameter.name for parameter in found.joints.parameters}
+
+
+@pytest.mark.parametrize(
+    ("layout", "noise", "trials"), [("static force, new", "harmonic", 12), ("sensor frame, new", "of the run", 8)]
+)
+def test_intervals_of_static_templates_cover(layout: str, noise: str, trials: int) -> None:
+    found = covered(layout, noise, range(trials))
+    print(f"{found.pooled:.3f}", found.held)
+    assert found.pooled > stats.binom.ppf(5e-4, trials, 0.95) / trials
+
+
+def test_a_force_that_each_run_sets_anew_is_covered() -> None:
+    """0.2 % from run to run, in the scatter that the runs show: most of what C_XXX scatters by."""
+    assert all(SET_ANEW in noises_of(layout) for layout in CASES if layout != "three pairs")
+    assert SET_ANEW not in noises_of("three pairs")
+    one, truth = drawn("loaded bar, new", SET_ANEW, 1)
+    assert np.std(truth.force_scatter) == pytest.approx(0.002, rel=0.6)
+    assert one.runs[0].force == 36.0
+    found = covered("loaded bar, new", SET_ANEW, range(25))
+    assert found.held["C_XXX"] >= stats.binom.ppf(5e-4, 25, 0.95)
+    assert found.pooled > 0.85
+
+
+def test_intervals_of_the_ball_roller_template_hold() -> None:
+    found = covered(ROLLER, "white", range(2))
+    assert {"C_XXX", "C_YYY", "stiffness 0°", "stiffness 345°"} <= set(found.held)
+    assert found.pooled > 0.7
