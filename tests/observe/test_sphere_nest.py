@@ -135,6 +135,24 @@ def test_backlash_of_a_rotary_axis_comes_back_from_poses_taken_both_ways(make_ma
         assert result[name].standard_uncertainty < 0.02 * abs(value)
 
 
+def test_lag_of_a_rotary_axis_comes_back_from_a_motion_with_time(make_machine: MakeMachine) -> None:
+    """There and back, so that the lag changes its sign; at an even rate it would look like a ball off its place."""
+    machine = make_machine("wCAFYXZt")
+    time = np.linspace(0.0, 20.0, 200)
+    columns = {"time": time, "c": 1.5 - 1.5 * np.cos(2 * np.pi * time / 20), "a": 0.5 * np.sin(2 * np.pi * time / 20)}
+    columns |= {name: np.zeros(200) for name in READ}
+    question = Question(("rotary-axes", "E_[XYZ]w0", "T_[AC]1"))
+    runs = tuple(Run(str(k), columns) for k in range(3))
+    test = MachineTest("nest", machine, SphereNest(SENSORS, CENTRE), runs, question)
+    velocity = test.observations()[0].velocity[:200, machine.index("C")]
+    assert_allclose(velocity[1:-1], (1.5 * np.pi / 10 * np.sin(2 * np.pi * time / 20))[1:-1], atol=1e-3)
+    truth = {"T_C1": 4e-4, "T_A1": -2e-4, "E_X(0A)C": 0.01}
+    result = identify(simulate(test, truth, Imperfection(noise=1e-5), seed=1))
+    for name, value in truth.items():
+        assert result[name].value == pytest.approx(value, abs=5 * result[name].standard_uncertainty)
+        assert result[name].standard_uncertainty < 0.02 * abs(value)
+
+
 def test_bad_runs_and_set_ups_are_refused(make_machine: MakeMachine) -> None:
     machine = table_table(make_machine)
     setup = SphereNest(SENSORS, CENTRE, motions=(C_TURNS,))
@@ -152,6 +170,8 @@ def test_bad_runs_and_set_ups_are_refused(make_machine: MakeMachine) -> None:
         observed(machine, setup, c=np.rad2deg(ANGLE))
     with pytest.raises(InputError, match="displacement_2 reaches 12 mm; are they micrometres given as millimetres"):
         observed(machine, setup, angle=ANGLE, displacement_2=np.full(24, 12.0))
+    with pytest.raises(InputError, match="has 24 readings and 24 times; it does not grow after reading 3; a motion takes 3"):
+        observed(machine, setup, c=ANGLE, time=np.where(np.arange(24) == 3, 0.0, np.arange(24.0)))
     with pytest.raises(InputError, match=r"the linear axes miss the ball by 28\.26 mm at reading 1; correct"):
         observed(machine, setup, c=np.zeros(24), z=np.full(24, -60.0))
     with pytest.raises(InputError, match="'table' is no end of the structural loop; write tool or workpiece"):

@@ -33,6 +33,8 @@ ENDS = {"tool": "t", "workpiece": "w"}
 STANDING = 1e-7
 """A step of an axis [mm, rad] that is smaller is rounding: the axis stood."""
 
+_LEAST_IN_MOTION = 3
+
 MOST_TURNS = 10.0
 """Turns of a rotary axis that a run may have."""
 
@@ -46,8 +48,10 @@ class SphereNest(Setup):
     named as the axes (`a_deg`, `c_deg`); or a column `angle` that counts along `motions`. Linear axes follow the ball; where
     their columns (`x_mm`) are recorded too, what they miss it by is taken off the readings. Each row is one observation of
     every sensor, sensor after sensor. The sensors need not be zeroed: zeros of the sensors are offsets of the end that
-    carries the nest, so that this end is known only if the nest was calibrated in place. Motion counts as quasi-static: no
-    velocity, but each axis has the sense in which it came to the pose from the one before, for its backlash.
+    carries the nest, so that this end is known only if the nest was calibrated in place.
+
+    Poses count as taken at standstill, each axis in the sense in which it came from the pose before, for its backlash. A run
+    in continuous motion records `time_s` too: velocities follow, for servo lag; let it hold one motion, without a jump.
 
     Attributes
     ----------
@@ -146,6 +150,7 @@ class SphereNest(Setup):
         still = np.zeros((count, 3))
         planned = follow(machine, self.centre, Motion(still, still, still, rotary, dict.fromkeys(rotary, 0.0)), tool)
         commands = _with_recorded(machine, run, planned.position)
+        velocity, acceleration = _rates(run, commands)
         frames = loop_frames(machine, commands, tool)
         directions = self._directions(frames, count)
         missed = frames.point - frames.workpiece.point(planned.ball)
@@ -157,8 +162,8 @@ class SphereNest(Setup):
             force=run.force or 0.0,
             pose=np.tile(np.arange(1.0, count + 1), sensors),
             commands=np.asfortranarray(np.tile(commands, (sensors, 1))),
-            velocity=np.zeros((count * sensors, len(machine.axes))),
-            acceleration=np.zeros((count * sensors, len(machine.axes))),
+            velocity=np.asfortranarray(np.tile(velocity, (sensors, 1))),
+            acceleration=np.asfortranarray(np.tile(acceleration, (sensors, 1))),
             centre=np.array([self.centre.get(axis, 0.0) for axis in machine.axes]),
             direction=np.asfortranarray(np.hstack([translation, np.zeros_like(translation)])),
             wrench=np.asfortranarray(np.tile(self._wrench(run, frames, count), (sensors, 1))),
@@ -179,7 +184,8 @@ class SphereNest(Setup):
         count = max(map(len, run.columns.values()), default=0)
         places = self._rotary(machine, run, count)
         linear = {axis: run.columns[axis.lower()] for axis in machine.axes if axis in "XYZ" and axis.lower() in run.columns}
-        columns = {axis.lower(): values for axis, values in {**linear, **places}.items()} or {"angle": run.columns["angle"]}
+        columns = {axis.lower(): values for axis, values in {**linear, **places}.items()}
+        columns |= {"time": run.columns["time"]} if "time" in run.columns else {}
         zeros = dict.fromkeys(self.readings, np.zeros(count))
         blank = self.observe(machine, replace(run, columns={**columns, **zeros}))
         true = respond(replace(blank, wrench=blank.wrench * imperfection.force_factor(random)))
@@ -240,6 +246,22 @@ def _with_recorded(machine: Machine, run: Run, position: Array) -> Array:
                 raise InputError(f"run {run.name!r}: a position of axis {axis} is no finite number; take the reading out")
             position[:, machine.index(axis)] = values
     return position
+
+
+def _rates(run: Run, commands: Array) -> tuple[Array, Array]:
+    """Velocities and accelerations of the axes, shape (m, n), by differences over the recorded time; zero without one."""
+    if "time" not in run.columns:
+        return np.zeros_like(commands), np.zeros_like(commands)
+    time = recorded(run, ["time"])["time"]
+    late = np.flatnonzero(~(np.diff(time) > 0))
+    if len(time) != len(commands) or len(time) < _LEAST_IN_MOTION or len(late):
+        at = f"; it does not grow after reading {int(late[0]) + 1}" if len(late) else ""
+        raise InputError(
+            f"run {run.name!r} has {len(commands)} readings and {len(time)} times{at}; a motion takes {_LEAST_IN_MOTION} "
+            f"readings or more at times that grow, or leave the column out for poses taken at standstill"
+        )
+    velocity = np.gradient(commands, time, axis=0)
+    return velocity, np.gradient(velocity, time, axis=0)
 
 
 def _senses(commands: Array) -> Array:
