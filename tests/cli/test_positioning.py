@@ -59,3 +59,19 @@ def test_the_report_has_its_files(folder: Path, tmp_path: Path) -> None:
 def test_another_instrument_is_refused() -> None:
     with pytest.raises(InputError, match="values of ISO 230-2 take the instrument positioning"):
         call(EXAMPLES / "static-rig")
+
+
+def test_identify_says_where_the_values_of_the_standard_are(folder: Path) -> None:
+    from elastogeo.formats import read_test
+    from elastogeo.identification import identify
+    from elastogeo.report import view_of
+
+    assert "The values of ISO 230-2 (A, E, R, B, M): elastogeo positioning." in view_of(identify(read_test(folder))).notes
+
+
+def test_a_file_of_targets_is_seen_as_a_run(folder: Path) -> None:
+    from elastogeo.formats import inspect_file
+
+    found = inspect_file(folder / "runs" / "1.csv")
+    assert found.kind == "run"
+    assert [column.quantity for column in found.columns] == ["cycle", "direction", "target", "position"]

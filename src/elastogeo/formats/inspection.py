@@ -22,6 +22,10 @@ from elastogeo.result import Result
 
 SHOWN = 5
 
+_READ = ("angle", "radial", "radius", "displacement", "ccw", "cw", "length", "deviation", "target")
+"""What an instrument reads, rather than what a control records."""
+_COUNTED = ("cycle", "direction")
+"""Columns without a unit that say how a target was approached."""
 _INSIDE = {"length": "mm", "angle": "rad", "force": "N", "moment": "N mm", "feed": "mm/s", "angular rate": "rad/s"}
 _INSIDE |= {"acceleration": "mm/s2", "pressure": "bar", "time": "s", "current": "A", "voltage": "V", "temperature": "degC"}
 
@@ -246,13 +250,23 @@ def _quantity(channel: Channel) -> str:
         check_unit(quantity, unit or channel.unit, percent=True)
     except (FormatError, InputError):
         return ""
-    known = quantity in QUANTITIES or dimensions_of(quantity)
+    known = quantity in (*QUANTITIES, *_COUNTED) or dimensions_of(quantity)
     return quantity if known and (not dimensions_of(quantity) or (unit or channel.unit) in UNITS) else ""
 
 
 def _is_reading(quantity: str) -> bool:
     """Whether a quantity is what an instrument reads, rather than what a control records."""
-    return quantity.partition("_")[0] in ("angle", "radial", "radius", "displacement", "ccw", "cw", "length", "deviation")
+    return quantity.partition("_")[0] in (
+        "angle",
+        "radial",
+        "radius",
+        "displacement",
+        "ccw",
+        "cw",
+        "length",
+        "deviation",
+        "target",
+    )
 
 
 def _are_readings(log: Log) -> bool:

@@ -21,6 +21,7 @@ from elastogeo.report.identification.words import (
     has_influences,
     keep_in_mind,
     log_words,
+    own_results_words,
     repeats_words,
     structure_words,
     uncertainty_words,
@@ -71,6 +72,7 @@ def identification_view(result: Identification) -> View:
             *inseparable_words(campaign.machine, result.confounding),
             *recovered_words(result),
             *log_words(campaign),
+            *own_results_words(campaign),
         ),
         sections=tuple(_sections(result)),
     )

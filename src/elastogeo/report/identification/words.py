@@ -15,6 +15,13 @@ from elastogeo.report.text import all_separated, display_units
 REPEATABILITY = (
     "Repeatability is not uncertainty: it says how runs of one set-up scatter, not how far all of them are from the truth."
 )
+_OWN_RESULTS = {
+    "positioning": "The values of ISO 230-2 (A, E, R, B, M): elastogeo positioning",
+    "loading-cycles": "The hysteresis of each run: elastogeo static",
+    "cartesian-stiffness": "The Cartesian stiffness: elastogeo static",
+    "twist": "The twist of the tool: elastogeo static",
+    "stiffness-map": "The stiffness in every direction: elastogeo stiffness",
+}
 _ON_AXIS = re.compile(r"C_([XYZABC])\1[A-Z]")
 _COUNTS = 1e-3
 """Share of a parameter from which what was subtracted counts."""
@@ -179,6 +186,12 @@ def assumptions(campaign: Campaign) -> list[str]:
     """What of the machine is assumed, in one sentence, and what was done to the logs of the runs; or nothing."""
     assumed = "; ".join(text.rstrip(".") for text in campaign.machine.assumed)
     return [*([f"Assumed, not measured, of the machine: {assumed}."] if assumed else []), *log_words(campaign)]
+
+
+def own_results_words(campaign: Campaign) -> tuple[str, ...]:
+    """Which command shows what an instrument shows by itself, beside parameters."""
+    extras = dict.fromkeys(test.setup.extra for test in campaign.tests.values())
+    return tuple(f"{_OWN_RESULTS[extra]}." for extra in extras if extra in _OWN_RESULTS)
 
 
 def log_words(campaign: Campaign) -> list[str]:
