@@ -286,3 +286,17 @@ def test_every_step_names_what_it_adds(planned) -> None:
     named = [name for part in result.tests for name in part.adds]
     assert len(named) == len(set(named)) == RANKS[-1]
     assert set(named) == set(result)
+
+
+def test_only_what_one_run_alone_knows_has_no_interval(three) -> None:
+    once = replace(three["zx"], runs=three["zx"].runs[:1])
+    result = identify({"xy": three["xy"], "zx": once}, parameters=["C_XXX", "C_YYY", "C_ZZZ", "C_BXX"])
+    assert result.by_run
+    assert "C_ZZZ" in result.unshown
+    assert "C_YYY" not in result.unshown
+    for parameter in result.parameters:
+        assert (parameter.interval is None) == (parameter.name in result.unshown)
+    check = next(check for check in result.verdict if check.name == "uncertainty by run")
+    assert check.passed is False
+    assert check.facts["unshown"] == result.unshown
+    assert "No interval of C_" in str(check)

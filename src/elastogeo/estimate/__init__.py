@@ -1,7 +1,7 @@
 """Labelled linear least squares, knowing nothing of machines: factor, confounding, solutions. Stands on `errors`."""
 
 from elastogeo.estimate.chi_bar_square import p_value_bound
-from elastogeo.estimate.clusters import runs_needed, solve_by_run
+from elastogeo.estimate.clusters import runs_needed, solve_as_runs_show, solve_by_run
 from elastogeo.estimate.cone import Block, Projection, PsdCone, is_never_negative, project, psd_cone
 from elastogeo.estimate.confounding import NULL_TOLERANCE, RANK_TOLERANCE, Confounding, confounding
 from elastogeo.estimate.distributions import DISTRIBUTIONS, Influence, coverage_factor
@@ -61,6 +61,7 @@ __all__ = [
     "runs_needed",
     "select",
     "solve",
+    "solve_as_runs_show",
     "solve_by_run",
     "white_noise",
 ]

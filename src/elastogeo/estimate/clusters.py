@@ -52,19 +52,37 @@ def solve_by_run(runs: Sequence[Factor], labels: Sequence[str]) -> Solution:
     DegreesOfFreedomError
         If there are too few runs for a parameter: some combination rests on one run alone.
     """
+    solution, weak = solve_as_runs_show(runs, labels)
+    if weak:
+        raise DegreesOfFreedomError(
+            f"{len(runs)} runs are too few for an uncertainty of {', '.join(weak)} by run: it rests on hardly more than one "
+            f"of them; repeat the runs"
+        )
+    return solution
+
+
+def solve_as_runs_show(runs: Sequence[Factor], labels: Sequence[str]) -> tuple[Solution, tuple[str, ...]]:
+    """As `solve_by_run`, for the parameters of which the runs show the scatter; and the labels of the others.
+
+    **Of the others the solution has no uncertainty**: their variance is that of independent readings, without covariance
+    and with one degree of freedom, so that the numbers stay finite, and is not to be stated.
+
+    Raises
+    ------
+    RankError
+        If the parameters are dependent.
+    """
     chosen = [select(run, labels) for run in runs]
     plain, split = solve(merge(*chosen)), _split(chosen)
     residuals = [run.z - run.R @ plain.values for run in chosen]
     scores = np.einsum("gki,gi->gk", split.shares, residuals)
     degrees, norms = split.degrees_of_freedom(), split.norms
-    if (degrees <= 1).any():
-        weak = ", ".join(label for label, degree in zip(labels, degrees, strict=True) if degree <= 1)
-        raise DegreesOfFreedomError(
-            f"{len(runs)} runs are too few for an uncertainty of {weak} by run: it rests on hardly more than one of them; "
-            f"repeat the runs"
-        )
     covariance = scores.T @ scores / np.outer(norms, norms)
-    return Solution(plain.labels, plain.values, covariance, degrees, plain.residual_std)
+    weak = degrees <= 1
+    covariance[weak], covariance[:, weak] = 0.0, 0.0
+    covariance[weak, weak] = np.diag(plain.covariance)[weak]
+    solution = Solution(plain.labels, plain.values, covariance, np.where(weak, 1.0, degrees), plain.residual_std)
+    return solution, tuple(label for label, is_weak in zip(labels, weak, strict=True) if is_weak)
 
 
 def runs_needed(runs: Sequence[Factor], labels: Sequence[str]) -> int | None:

@@ -8,7 +8,7 @@ from typing import Unpack
 
 import numpy as np
 
-from elastogeo.errors import DegreesOfFreedomError, InputError, UnsupportedError
+from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.estimate import (
     Confounding,
     Estimate,
@@ -17,7 +17,7 @@ from elastogeo.estimate import (
     runs_needed,
     select,
     solve,
-    solve_by_run,
+    solve_as_runs_show,
 )
 from elastogeo.identification.budget import Budget, agreement, uncertainty_budget
 from elastogeo.identification.campaigns.parts import Shares, TestPart, shares_of
@@ -136,7 +136,8 @@ def identified(one: MachineTest | Identification, **asked: Unpack[Asked]) -> Ide
 def _identified(campaign: Campaign, systems: Systems, found: Confounding, known: Sequence[Effect]) -> Identification:
     """The estimate and its uncertainty, not yet held against models and physics."""
     naive = solve(merged(systems.runs), found.retained, noise_of(systems.runs, systems.references))
-    solution = _by_run(systems, found) or naive
+    by_run, unshown = _by_run(systems, found)
+    solution = by_run or naive
     budget = uncertainty_budget(systems, solution, known)
     traces = tuple(_trace(run, solution) for run in systems.runs)
     shares, one = shares_of(systems, solution.labels), not campaign.several
@@ -150,11 +151,12 @@ def _identified(campaign: Campaign, systems: Systems, found: Confounding, known:
         together=() if one else shares.together,
         information={} if one else _information(shares, systems.tests),
         reference_force=campaign.question.reference_force,
-        parameters=_parameters(systems, found, solution, budget if solution is not naive else None, truth),
+        parameters=_parameters(systems, found, solution, budget if by_run else None, unshown, truth),
         confounding=found,
         solution=solution,
         naive=naive,
-        by_run=solution is not naive,
+        by_run=by_run is not None,
+        unshown=unshown,
         budget=budget,
         local_change=change_between_levels(systems, found.retained) if one else None,
         minimum_norm=dict(zip(found.labels, map(float, minimum_norm(merged(systems.runs))), strict=True)),
@@ -193,7 +195,9 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
     both = 0 < len(elastic_sources) < len(systems.sources)
     reference, runs = bool(systems.references), len(systems.runs)
     needed = (
-        None if result.by_run or reference else runs_needed([run.factor for run in systems.runs], result.solution.labels)
+        None
+        if (result.by_run and not result.unshown) or reference
+        else runs_needed([run.factor for run in systems.runs], result.solution.labels)
     )
     stated = [effect.influence.label for effect in known if effect.influence.label != ROUNDING]
     stated += [one.label or one.kind for test in campaign.tests.values() for one in test.influences]
@@ -204,7 +208,7 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
         separated(parameters, systems.applied) if both else None,
         conditioned(result.confounding),
         residuals_unstructured(harmonics, shared, result.rmse) if around else None,
-        uncertainty_by_run(result.by_run, runs, reference, needed),
+        uncertainty_by_run(result.by_run, runs, reference, needed, result.unshown),
         influences_stated(stated, reference),
         free_of_assumptions(result.budget),
         drawn,
@@ -234,7 +238,9 @@ def _held_against_draws(
     except UnsupportedError as error:
         return result, Check("first order enough", None, {"why": str(error)})
     parameters = tuple(
-        parameter if drawn.agrees[k] else replace(parameter, interval=(float(low), float(high)))
+        parameter
+        if drawn.agrees[k] or parameter.interval is None
+        else replace(parameter, interval=(float(low), float(high)))
         for k, (parameter, (low, high)) in enumerate(zip(result.parameters, drawn.interval, strict=True))
     )
     return replace(result, agreement=drawn, parameters=parameters), first_order_enough(drawn, parameters)
@@ -294,19 +300,20 @@ def consistency_of(identification: Identification) -> Consistency:
         sources_of(identification.campaign),
         identification.confounding,
         replace(identification.solution, covariance=budget.covariance, degrees_of_freedom=budget.degrees_of_freedom),
-        correlated_as=naive.covariance if identification.by_run else None,
+        correlated_as=naive.covariance if identification.by_run and naive.residual_std else None,
         by_reading=not identification.by_run,
     )
 
 
-def _by_run(systems: Systems, found: Confounding) -> Solution | None:
-    """The solution with its uncertainty by run; None where a reference is taken off or the runs are too few."""
+def _by_run(systems: Systems, found: Confounding) -> tuple[Solution | None, tuple[str, ...]]:
+    """The solution with its uncertainty by run, and the parameters of which the runs show none.
+
+    No solution where a reference is taken off, or the runs are too few for every parameter.
+    """
     if systems.references or len(systems.runs) < 2:
-        return None
-    try:
-        return solve_by_run([run.factor for run in systems.runs], found.retained)
-    except DegreesOfFreedomError:
-        return None
+        return None, ()
+    solution, unshown = solve_as_runs_show([run.factor for run in systems.runs], found.retained)
+    return (None, ()) if len(unshown) == len(found.retained) else (solution, unshown)
 
 
 def _part(k: int, systems: Systems, traces: Sequence[Trace], shares: Shares) -> TestPart:
@@ -421,9 +428,15 @@ def _span_of(run: RunSystem, solution: Solution, sources: Sequence[Source]) -> t
 
 
 def _parameters(
-    systems: Systems, found: Confounding, solution: Solution, budget: Budget | None, truth: Mapping[str, float]
+    systems: Systems,
+    found: Confounding,
+    solution: Solution,
+    budget: Budget | None,
+    unshown: Sequence[str],
+    truth: Mapping[str, float],
 ) -> tuple[Parameter, ...]:
     """The parameters; without a budget, without uncertainty; of readings that were measured, without a truth."""
+    budgets = {name: None if name in unshown else budget for name in solution.labels}
     by_name = {source.name: source for source in systems.sources}
     ranges = systems.range_per_unit(solution.labels) * solution.values
     machine = [not by_name[name].set_up for name in solution.labels]
@@ -434,8 +447,8 @@ def _parameters(
             unit=by_name[name].unit,
             meaning=by_name[name].meaning,
             value=float(solution.values[k]),
-            estimate=None if budget is None else _estimate(solution, budget, k),
-            interval=None if budget is None else (float(budget.interval[k, 0]), float(budget.interval[k, 1])),
+            estimate=_estimate(solution, budgets[name], k),
+            interval=_interval(budgets[name], k),
             stands_for=found.stands_for(name),
             peak_to_peak=float(ranges[k]),
             share=float(abs(ranges[k])) / total if machine[k] else 0.0,
@@ -449,7 +462,13 @@ def _parameters(
     )
 
 
-def _estimate(solution: Solution, budget: Budget, k: int) -> Estimate:
+def _interval(budget: Budget | None, k: int) -> tuple[float, float] | None:
+    return None if budget is None else (float(budget.interval[k, 0]), float(budget.interval[k, 1]))
+
+
+def _estimate(solution: Solution, budget: Budget | None, k: int) -> Estimate | None:
+    if budget is None:
+        return None
     return Estimate(float(solution.values[k]), float(budget.standard_uncertainty[k]), float(budget.degrees_of_freedom[k]))
 
 

@@ -240,6 +240,8 @@ class Identification(Result):
         The same values with the covariance that counts on independent readings.
     by_run : bool
         Whether the runs are enough for an uncertainty by run.
+    unshown : tuple of str
+        Parameters that have none all the same, since they rest on hardly more than one run.
     budget : Budget
         Standard uncertainties with the systematic influences.
     local_change : Change or None
@@ -285,6 +287,7 @@ class Identification(Result):
     solution: Solution
     naive: Solution
     by_run: bool
+    unshown: tuple[str, ...]
     budget: Budget
     local_change: Change | None
     minimum_norm: dict[str, float]

@@ -98,9 +98,10 @@ def separated(parameters: Sequence[Parameter], levels: ForceLevels) -> Check:
     return Check("separated", passed, facts, decisive=not passed)
 
 
-def uncertainty_by_run(by_run: bool, runs: int, reference: bool, needed: int | None) -> Check:
+def uncertainty_by_run(by_run: bool, runs: int, reference: bool, needed: int | None, unshown: Sequence[str] = ()) -> Check:
     """Whether the uncertainties count on independent runs; there are none if not."""
-    return Check("uncertainty by run", by_run, {"runs": runs, "reference": reference, "needed": needed})
+    facts = {"runs": runs, "reference": reference, "needed": needed, "unshown": tuple(unshown) if by_run else ()}
+    return Check("uncertainty by run", by_run and not unshown, facts)
 
 
 def first_order_enough(agreement: Agreement, parameters: Sequence[Parameter]) -> Check:

@@ -95,7 +95,7 @@ def compare(
     common = [name for name in stands[0] if name in stands[1] and set(stands[0][name]) == set(stands[1][name])]
     if not common:
         raise UnsupportedError("the tests determine no parameter in common; ask both for the same ones")
-    few = next((result for result in (before, after) if not result.by_run), None)
+    few = next((result for result in (before, after) if not result.by_run or result.unshown), None)
     if few is not None:
         raise UnsupportedError(
             f"test {few.test.name!r} has too few runs, or subtracts a reference level: its values have no uncertainty by "

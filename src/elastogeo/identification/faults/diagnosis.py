@@ -151,7 +151,8 @@ def _fault(result: Identification, members: tuple[int, ...]) -> Fault:
     slope = np.ones(1) if len(chosen) == 1 else values / (value or 1.0)
     uncertainty = float(np.sqrt(slope @ covariance @ slope))
     freedom = float(result.budget.degrees_of_freedom[list(members)].min())
-    estimate = Estimate(value, uncertainty, freedom) if result.by_run else None
+    known = all(parameter.estimate is not None for parameter in chosen)
+    estimate = Estimate(value, uncertainty, freedom) if known else None
     per_unit = max(_distortion_per_unit(parameter) for parameter in chosen)
     return Fault(
         names=tuple(parameter.name for parameter in chosen),
@@ -163,7 +164,7 @@ def _fault(result: Identification, members: tuple[int, ...]) -> Fault:
         distortion=value * per_unit,
         distortion_estimate=None if estimate is None else estimate.scaled(per_unit),
         share=sum(parameter.share for parameter in chosen),
-        significant=result.by_run and _is_significant(values, covariance, result, members),
+        significant=known and _is_significant(values, covariance, result, members),
         also=tuple(name for parameter in chosen for name in parameter.stands_for if name != parameter.name),
     )
 

@@ -182,7 +182,7 @@ def _parameter(result: Identification, k: int, parameter: Parameter) -> dict[str
         "separated": parameter.separated,
         "degrees_of_freedom": parameter.degrees_of_freedom,
         "naive_standard_uncertainty": result.naive.standard_uncertainty[k],
-        "budget": [_budget_line(line) for line in result.budget.lines[k]] if result.by_run else [],
+        "budget": [] if parameter.estimate is None else [_budget_line(line) for line in result.budget.lines[k]],
         "truth": parameter.truth,
         "monte_carlo": None if result.agreement is None else _draws(result.agreement, k),
     }

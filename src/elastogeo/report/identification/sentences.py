@@ -125,6 +125,11 @@ def uncertainty_by_run(facts: Facts, passed: bool | None) -> str:
             "reference level."
         )
     remedy = "repeat the runs" if needed is None else f"it takes {needed} runs like these"
+    if facts["unshown"]:
+        return (
+            f"No interval of {', '.join(facts['unshown'])}: hardly more than one of the {runs} runs knows so much; {remedy}."
+            f" All others have theirs from the scatter of the runs."
+        )
     return f"No interval: {runs} run{'s are' if runs > 1 else ' is'} too few to show how far runs scatter; {remedy}."
 
 
