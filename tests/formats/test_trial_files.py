@@ -21,6 +21,7 @@ from elastogeo.formats import (
 )
 from elastogeo.formats.documents.machine_tests import read_test_document
 from elastogeo.identification import identify
+from elastogeo.machine import Workpiece
 from elastogeo.sources import simulate
 
 
@@ -244,3 +245,14 @@ def test_what_a_test_says_wrongly_of_a_log_is_told(folder, more, runs, message):
     with pytest.raises(FormatError) as caught:
         read_test(folder)
     assert message in str(caught.value)
+
+
+def test_a_weight_on_the_table_is_in_kilograms(tmp_path):
+    folder = tmp_path / "t"
+    shutil.copytree(example_test().with_name("one-level"), folder)
+    with (folder / "test.toml").open("a") as file:
+        file.write("\n[workpiece]\nmass_kg = 250\ncentre_mm = [0, 100, 50]\n")
+    assert read_test(folder).workpiece == Workpiece(0.25, (0.0, 100.0, 50.0))
+    (folder / "test.toml").write_text((folder / "test.toml").read_text().replace("mass_kg = 250", "mass_kg = -1"))
+    with pytest.raises(InputError, match="the mass not negative"):
+        read_test(folder)

@@ -98,12 +98,29 @@ def effects(campaign: Campaign, systems: Systems) -> tuple[Effect, ...]:
 def _of_test(name: str, test: MachineTest, systems: Systems) -> Iterator[tuple[_Quantity, Effect]]:
     """The effects of one test on its own runs, each with the quantity that it is of."""
     count: Counter[tuple[str, str, str]] = Counter()
-    for kind, of, one in _stated(test, systems):
+    for kind, of, stated in _stated(test, systems):
+        one = _beside_weights(stated, test, systems)
         serial = test.about.instrument_serial.strip()
         owner = f"instrument {serial}" if serial and of == "instrument" else f"test {name}"
         label = one.influence.label
         yield _Quantity(owner, kind, label, count[owner, kind, label]), one
         count[owner, kind, label] += 1
+
+
+def _beside_weights(effect: Effect, test: MachineTest, systems: Systems) -> Effect:
+    """The effect as it is where weights load the machine too: what stretches the force does not stretch them."""
+    masses = [joint.mass for joint in test.machine.joints]
+    masses += [test.workpiece.mass] if test.workpiece else []
+    if not effect.stretch.any() or not any(masses):
+        return effect
+    changes = [
+        run.without_own(load_derivative(systems.sources, test.machine, run.observations, run.observations.wrench))
+        for run in systems.runs
+    ]
+    columns = [size * change for size, change in zip(effect.stretch, changes, strict=True)]
+    if effect.columns is not None:
+        columns = [column + other for column, other in zip(columns, effect.columns, strict=True)]
+    return replace(effect, stretch=np.zeros_like(effect.stretch), columns=tuple(columns))
 
 
 def _stated(test: MachineTest, systems: Systems) -> Iterator[tuple[str, Belonging, Effect]]:

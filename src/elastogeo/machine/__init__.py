@@ -14,7 +14,7 @@ from elastogeo.machine.frames import (
     steady,
 )
 from elastogeo.machine.jacobian import COMPONENTS, carried_to, jacobian
-from elastogeo.machine.machine import Joint, Machine
+from elastogeo.machine.machine import DOWN, Joint, Machine
 from elastogeo.machine.quantity import (
     MM_OR_RAD,
     Angle,
@@ -32,6 +32,7 @@ from elastogeo.machine.quantity import (
     LengthPerPressure,
     Lengths,
     LengthsPerForce,
+    Mass,
     PerLength,
     Point,
     Pressure,
@@ -46,10 +47,12 @@ from elastogeo.machine.quantity import (
     Travel,
 )
 from elastogeo.machine.topology import AXIS_ORDER, LINEAR, ROTARY, SPINDLE, Topology, parse_topology
+from elastogeo.machine.weights import Workpiece, weight_loads
 
 __all__ = [
     "AXIS_ORDER",
     "COMPONENTS",
+    "DOWN",
     "LINEAR",
     "MM_OR_RAD",
     "ROTARY",
@@ -77,6 +80,7 @@ __all__ = [
     "LengthsPerForce",
     "LoopFrames",
     "Machine",
+    "Mass",
     "Motion",
     "PerLength",
     "Point",
@@ -92,6 +96,7 @@ __all__ = [
     "Torque",
     "TorquePerCurrent",
     "Travel",
+    "Workpiece",
     "carried_to",
     "check_commands",
     "follow",
@@ -100,5 +105,6 @@ __all__ = [
     "parse_topology",
     "rotation_matrix",
     "steady",
+    "weight_loads",
     "workpiece_ball",
 ]

@@ -6,10 +6,12 @@ from dataclasses import dataclass, field
 from math import inf, isfinite
 
 from elastogeo.errors import MachineError
-from elastogeo.machine.quantity import Pitch, Point, RotationVector, Travel
+from elastogeo.machine.quantity import Mass, Pitch, Point, RotationVector, Travel
 from elastogeo.machine.topology import AXIS_ORDER, LINEAR, ROTARY, SPINDLE, Topology
 
 _ZERO = (0.0, 0.0, 0.0)
+DOWN = (0.0, 0.0, -1.0)
+_UNIT = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +33,10 @@ class Joint:
     compliant : bool
         Whether the joint's compliance is modelled. False by default for the spindle alone: what lies behind the last
         axis then counts as rigid.
+    mass : float [kg in files; N s^2/mm inside]
+        Of its carriage, if its own weight is to load the joints that carry it.
+    centre_of_gravity : tuple of 3 float [mm]
+        Of the carriage, in its motion frame.
     """
 
     name: str
@@ -39,6 +45,8 @@ class Joint:
     travel: Travel = (-inf, inf)
     pitch: Pitch | None = None
     compliant: bool = True
+    mass: Mass = 0.0
+    centre_of_gravity: Point = _ZERO
 
     @property
     def is_rotary(self) -> bool:
@@ -65,6 +73,8 @@ class Machine:
         One per axis, in the order of `topology.axes`.
     tool : tuple of 3 float [mm]
         Functional point (tool tip, tool ball) in the frame of the last carriage of the tool branch.
+    gravity : tuple of 3 float
+        Direction of gravity in the foundation, a unit vector.
     assumed : tuple of str
         What of this description is assumed rather than measured or published, in words.
     """
@@ -74,6 +84,7 @@ class Machine:
     joints: tuple[Joint, ...] = field(default=())
     tool: Point = _ZERO
     assumed: tuple[str, ...] = ()
+    gravity: tuple[float, float, float] = DOWN
 
     def __post_init__(self) -> None:
         """Fill in the default joints and refuse a description that contradicts itself."""
@@ -133,5 +144,11 @@ def check_machine(machine: Machine) -> None:
         low, high = joint.travel
         if not low < high:
             raise MachineError(f"machine {machine.name!r}, axis {joint.name}: travel {low:g} to {high:g} is empty")
+        if not (isfinite(joint.mass) and joint.mass >= 0):
+            raise MachineError(f"machine {machine.name!r}, axis {joint.name}: the mass must be a number, not negative")
+    if not abs(sum(part**2 for part in machine.gravity) - 1.0) < _UNIT:
+        raise MachineError(
+            f"machine {machine.name!r}: gravity is {machine.gravity}, it must be a direction of length 1, such as (0, 0, -1)"
+        )
     if not all(map(isfinite, machine.tool)):
         raise MachineError(f"machine {machine.name!r}: the tool point must be three finite numbers")

@@ -14,6 +14,9 @@ MM_OR_RAD = "mm|rad"
 Length = Annotated[float, "mm"]
 Angle = Annotated[float, "rad"]
 Force = Annotated[float, "N"]
+Mass = Annotated[float, "kg"]
+"""Inside in N s^2/mm: 1 kg is 1e-3 of it."""
+
 Pressure = Annotated[float, "bar"]
 Feed = Annotated[float, "mm_s"]
 Point = Annotated[tuple[float, float, float], "mm"]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import inf
 
 from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
-from elastogeo.machine import About, Force, Forces, Length, Machine, Resolution
+from elastogeo.machine import About, Force, Forces, Length, Machine, Resolution, Workpiece
 from elastogeo.observe.covariance import with_covariance
 from elastogeo.observe.instruments import instrument_of
 from elastogeo.observe.observations import Observations
@@ -101,6 +101,8 @@ class MachineTest(ByValue):
         From what the readings are simulated, in words; empty if they were not.
     reconstructed : str
         From what the readings are reconstructed, in words; empty if they were not.
+    workpiece : Workpiece or None
+        What lay on the table while it was made, if its weight is known.
     about : About
         Who, when, with what.
     """
@@ -114,6 +116,7 @@ class MachineTest(ByValue):
     influences: tuple[KnownInfluence, ...] = ()
     simulated: str = ""
     reconstructed: str = ""
+    workpiece: Workpiece | None = None
     about: About = field(default_factory=About)
 
     def __post_init__(self) -> None:
@@ -147,4 +150,5 @@ class MachineTest(ByValue):
 
     def observations(self) -> tuple[Observations, ...]:
         """The observations of every run that holds readings, in order."""
-        return with_covariance(self.setup.observe_all(self.machine, self.runs), self.runs)
+        seen = with_covariance(self.setup.observe_all(self.machine, self.runs), self.runs)
+        return seen if self.workpiece is None else tuple(replace(run, weight=self.workpiece) for run in seen)

@@ -14,7 +14,7 @@ import numpy as np
 
 from elastogeo.errors import InputError
 from elastogeo.estimate import RANK_TOLERANCE
-from elastogeo.machine import Array
+from elastogeo.machine import Array, Workpiece
 
 Rows = np.ndarray[tuple[int], np.dtype[np.intp]]
 """Numbers of readings, shape (k,)."""
@@ -99,6 +99,8 @@ class Observations:
         the velocity says it.
     nominal : array, shape (m,) [mm or rad], or None
         What the instrument measures on a perfect machine, where the reading is the departure from it; None for nothing.
+    weight : Workpiece or None
+        What lies on the table and loads the joints that carry it.
     span : tuple of str, or None
         The joints across which the instrument reads, where its two ends are not tool and workpiece: it sees the twists of
         these joints and of no other place, while the wrench loads them all. None for the whole loop.
@@ -123,6 +125,7 @@ class Observations:
     sense: Array | None = None
     nominal: Array | None = None
     span: tuple[str, ...] | None = None
+    weight: Workpiece | None = None
 
     def __len__(self) -> int:
         """How many readings."""

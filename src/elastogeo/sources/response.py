@@ -69,10 +69,13 @@ def load_derivative(sources: Sequence[Source], machine: Machine, observations: O
             f"the uncertainty of single loads is propagated through constant compliances only; leave out {', '.join(other)}"
         )
     situation = Situation(machine, replace(observations, wrench=change))
+    unloaded = Situation(machine, replace(observations, wrench=np.zeros_like(change))) if situation.weights else None
     columns = np.zeros((len(observations), len(sources)))
     for k, source in enumerate(sources):
         if source.force_degree:
             columns[:, k] = source.column(situation)
+            if unloaded is not None:  # weights do not change with the wrench
+                columns[:, k] -= source.column(unloaded)
     return columns
 
 
@@ -116,7 +119,8 @@ def column_ceilings(sources: Sequence[Source], machine: Machine, observations: O
         float(np.linalg.norm(situation.frames.point - joint.motion.origin, axis=1).max())
         for joint in situation.frames.joints.values()
     )
-    force = float(situation.force().max())
+    carried = [float(np.abs(load[:, :3]).max()) for load in situation.weights.values()]
+    force = float(situation.force().max()) + max(carried, default=0.0)
     moment = force * lever + float(np.abs(observations.wrench[:, 3:]).max())
 
     def ceiling(source: Source) -> float:

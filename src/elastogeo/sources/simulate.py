@@ -57,7 +57,7 @@ def simulate(
     response = exact_response if exact else linear_response
 
     def respond(observations: Observations) -> Array:
-        return response(truth, test.machine, observations)
+        return response(truth, test.machine, replace(observations, weight=test.workpiece))
 
     instrument = imperfection or Imperfection()
     made = (test.setup.simulated(test.machine, run, respond, instrument, random) for run in test.runs)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from elastogeo.errors import UnsupportedError
-from elastogeo.machine import Array, Frame, LoopFrames, Machine, Site, carried_to, loop_frames
+from elastogeo.machine import Array, Frame, LoopFrames, Machine, Site, carried_to, loop_frames, weight_loads
 from elastogeo.observe import Observations
 
 STANDING = 1e-9
@@ -24,17 +24,22 @@ class Situation:
     observations : Observations
     frames : LoopFrames
         At the poses of the observations.
+    weights : dict of str to array, shape (m, 6) or (1, 6) [N, N mm]
+        What known weights load each joint with that carries any.
     """
 
     machine: Machine
     observations: Observations
     frames: LoopFrames = field(init=False)
+    weights: dict[str, Array] = field(init=False)
     _carried: dict[tuple[str, Site], Array] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         """Place the frames."""
         observations = self.observations
-        object.__setattr__(self, "frames", loop_frames(self.machine, observations.commands, observations.tool))
+        frames = loop_frames(self.machine, observations.commands, observations.tool)
+        object.__setattr__(self, "frames", frames)
+        object.__setattr__(self, "weights", weight_loads(self.machine, frames, observations.weight))
 
     def sensitivity(self, site: Site) -> Array:
         """Change of each reading per unit of each twist component at a site, shape (m, 6): `b^T J`.
@@ -49,8 +54,12 @@ class Situation:
         return self._at("direction", site)
 
     def load(self, axis: str) -> Array:
-        """Load along and about the axes of a joint's motion frame, shape (m, 6) [N, N mm]: `J^T W` (Eq. 4.5)."""
-        return self._at("wrench", ("motion", axis))
+        """Load along and about the axes of a joint's motion frame, shape (m, 6) [N, N mm].
+
+        `J^T W` of the wrench at the tool (Eq. 4.5), and the weights that the joint carries (8.2).
+        """
+        of_wrench = self._at("wrench", ("motion", axis))
+        return of_wrench + self.weights[axis] if axis in self.weights else of_wrench
 
     def command(self, axis: str) -> Array:
         """Commands of an axis, shape (m,) [mm or rad]."""

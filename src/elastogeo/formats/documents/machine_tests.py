@@ -24,7 +24,7 @@ from elastogeo.formats.text.fingerprint import sha256_of
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.formats.text.units import UNITS
-from elastogeo.machine import About, Feed, Force, Length, Pressure, Resolution, Time
+from elastogeo.machine import About, Feed, Force, Length, Pressure, Resolution, Time, Workpiece
 from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, check_runs, instrument_named, turning
 
 SCHEMA = "elastogeo.test/1"
@@ -100,6 +100,7 @@ class TestDocument:
     resolution: Resolution | None = None
     simulated: str = ""
     reconstructed: str = ""
+    workpiece: Workpiece | None = None
     columns: Mapping[str, str] = field(default_factory=dict)
     channels: tuple[ChannelUse, ...] = ()
     clock: Clock = field(default_factory=Clock)
@@ -154,6 +155,7 @@ def read_test(
         influences=document.influences,
         simulated=document.simulated or ", ".join(dict.fromkeys(run.simulated for run in runs if run.simulated)),
         reconstructed=document.reconstructed,
+        workpiece=document.workpiece,
         about=document.about,
     )
 

@@ -11,7 +11,7 @@ from typing import Any
 from elastogeo.errors import FormatError
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.formats.text.units import UNITS
-from elastogeo.machine import ROTARY, SPINDLE, Joint, Machine, Point, parse_topology
+from elastogeo.machine import DOWN, ROTARY, SPINDLE, Joint, Machine, Point, parse_topology
 
 SCHEMA = "elastogeo.machine/1"
 
@@ -25,6 +25,7 @@ class MachineDocument:
     topology: str
     tool: Point = (0.0, 0.0, 0.0)
     assumed: tuple[str, ...] = ()
+    gravity: tuple[float, float, float] = DOWN
     axes: Mapping[str, Any] = field(default_factory=dict)
 
 
@@ -88,7 +89,7 @@ def read_machine(path: str | Path) -> Machine:
     if strangers:
         raise FormatError(f"{path}: the table axes.{strangers[0]} names no axis of {topology.compact}; remove it")
     joints = tuple(_joint(axis, document.axes.get(axis, {}), path) for axis in topology.axes)
-    return Machine(document.name, topology, joints, document.tool, document.assumed)
+    return Machine(document.name, topology, joints, document.tool, document.assumed, document.gravity)
 
 
 def _joint(axis: str, table: Any, path: Path) -> Joint:
