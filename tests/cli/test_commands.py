@@ -7,22 +7,8 @@ import sys
 
 import pytest
 
-from elastogeo.cli import main
 from elastogeo.cli.app import ORDER, commands
 from elastogeo.formats import example_test
-
-
-@pytest.fixture
-def elastogeo(monkeypatch, capsys):
-    """Run a command line in this process: its exit code, standard output and standard error."""
-
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["elastogeo", *map(str, arguments)])
-        code = main()
-        out, err = capsys.readouterr()
-        return code, out, err
-
-    return run
 
 
 @pytest.fixture

@@ -2,28 +2,15 @@
 
 import json
 import re
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.stats import linregress, t
 
-from elastogeo.cli import main
 from elastogeo.formats import read_calibration
 
 PRESSURE = np.array([1.0, 2, 3, 4, 5, 6, 5, 4, 3, 2, 1, 2, 3, 4, 5, 6])
-
-
-@pytest.fixture
-def elastogeo(monkeypatch, capsys):
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["elastogeo", *map(str, arguments)])
-        code = main()
-        out, err = capsys.readouterr()
-        return code, out, err
-
-    return run
 
 
 def written(path: Path, **columns: np.ndarray) -> Path:

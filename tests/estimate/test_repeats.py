@@ -19,7 +19,7 @@ from elastogeo.estimate.factor import Array
 
 FORCES = (328.0, 454.0)
 RUNS = 5
-DRAWS = 1200
+DRAWS = 600
 T25 = 2.0638985616280205
 """Student's factor for 95 % with the 24 degrees of freedom that 25 independent values would have."""
 

@@ -15,10 +15,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy import stats
-from scipy.signal import lfilter
 
 from elastogeo.errors import DegreesOfFreedomError
-from elastogeo.estimate import factor_blocks, repeatability, solve, solve_by_run
+from elastogeo.estimate import repeatability, solve, solve_by_run
 from elastogeo.identification import (
     Systems,
     agreement,
@@ -33,6 +32,7 @@ from elastogeo.identification import (
 from elastogeo.machine import Array, Machine, parse_topology
 from elastogeo.observe import Circle, Imperfection, KnownInfluence, LoadedBallBar, MachineTest, Question, Run
 from elastogeo.sources import simulate
+from tests.identification.drawn_readings import autocorrelated, of_the_run, white, with_readings
 
 READINGS = 60
 DRAWS = 600
@@ -82,34 +82,6 @@ def systems_for(layout: str, parameters: tuple[str, ...] = THIRTEEN) -> Systems:
     return systems_of(blank(layout, parameters))
 
 
-def with_readings(systems: Systems, readings: Array) -> Systems:
-    """The same systems with other readings, shape (runs, m)."""
-    runs = []
-    for run, reading in zip(systems.runs, readings, strict=True):
-        rows = run.rows.copy(order="F")
-        rows[:, -1] = reading
-        runs.append(replace(run, rows=rows, factor=factor_blocks(run.factor.labels, [rows.copy(order="F")])))
-    return replace(systems, runs=tuple(runs))
-
-
-def white(random: np.random.Generator, runs: int) -> Array:
-    return 1e-4 * random.standard_normal((runs, READINGS))
-
-
-def autocorrelated(random: np.random.Generator, runs: int) -> Array:
-    """AR(1) with 0.9 from reading to reading."""
-    start = 100
-    steps = random.standard_normal((runs, READINGS + start))
-    return np.asarray(1e-4 * lfilter([1.0], [1.0, -0.9], steps, axis=1)[:, start:])
-
-
-def of_the_run(random: np.random.Generator, runs: int) -> Array:
-    """Random harmonics up to the fifth in each run: an eccentricity, an oval, a lobed form, another in every run."""
-    angle = np.arange(READINGS) * 2 * np.pi / READINGS
-    waves = np.vstack([wave(order * angle) for order in range(6) for wave in (np.cos, np.sin)])
-    return white(random, runs) + 3e-4 * random.standard_normal((runs, len(waves))) @ waves
-
-
 NOISES = {"white": white, "autocorrelated": autocorrelated, "of the run": of_the_run}
 
 
@@ -155,7 +127,7 @@ def rates(layout: str, noise: str) -> Rates:
     random = np.random.default_rng([95, len(layout), len(noise)])
     inside = np.zeros((2, len(labels)))
     for _ in range(DRAWS):  # the truth is zero: least squares is linear
-        drawn = with_readings(systems, NOISES[noise](random, len(systems.runs)))
+        drawn = with_readings(systems, NOISES[noise](random, (len(systems.runs), READINGS)))
         solution = solve_by_run([run.factor for run in drawn.runs], labels)
         inside[0] += covered(solution.interval(), np.zeros(len(labels)))
         inside[1] += covered(solve(merged(drawn.runs), labels).interval(), np.zeros(len(labels)))
@@ -198,7 +170,7 @@ def test_the_naive_interval_is_the_greatest_where_runs_are_unlike() -> None:
     random = np.random.default_rng(4)
     ratios = []
     for _ in range(50):
-        drawn = with_readings(systems, of_the_run(random, len(systems.runs)))
+        drawn = with_readings(systems, of_the_run(random, (len(systems.runs), READINGS)))
         by_run = solve_by_run([run.factor for run in drawn.runs], drawn.runs[0].factor.labels)
         ratios.append(by_run.standard_uncertainty / solve(merged(drawn.runs)).standard_uncertainty)
     assert 2.0 < np.sqrt(np.mean(np.square(ratios))) < 6.0
@@ -206,7 +178,7 @@ def test_the_naive_interval_is_the_greatest_where_runs_are_unlike() -> None:
 
 def test_too_few_runs_are_refused_an_uncertainty_by_run() -> None:
     systems = systems_for("7 levels")
-    drawn = with_readings(systems, white(np.random.default_rng(0), 7))
+    drawn = with_readings(systems, white(np.random.default_rng(0), (7, READINGS)))
     with pytest.raises(DegreesOfFreedomError, match=r"3 runs are too few for an uncertainty of .* by run"):
         solve_by_run([drawn.runs[k].factor for k in (0, 3, 6)], drawn.runs[0].factor.labels)
 
@@ -219,7 +191,7 @@ def test_run_level_repeats_cover(noise: str) -> None:
     random = np.random.default_rng([7, len(noise)])
     inside, pairs, freedoms = np.zeros(13), np.zeros(13), []
     for _ in range(REPEAT_DRAWS):
-        drawn = with_readings(systems, NOISES[noise](random, 10))
+        drawn = with_readings(systems, NOISES[noise](random, (10, READINGS)))
         levels = {f"{force:g} N": [run.factor for run in drawn.at(force)] for force in drawn.levels}
         repeats = repeatability(levels, labels)
         inside += covered(repeats.solution.interval(), np.zeros(13))
@@ -317,7 +289,7 @@ def influence_rates(
     random = np.random.default_rng([5, len(influences), *map(ord, influences[0].kind[:8]), len(influences[0].distribution)])
     inside = np.zeros((2, len(labels)))
     for _ in range(draws):
-        readings = readings_under(systems, influences, random) + NOISES[noise](random, len(systems.runs))
+        readings = readings_under(systems, influences, random) + NOISES[noise](random, (len(systems.runs), READINGS))
         drawn = with_readings(systems, readings)
         solution = solve_by_run([run.factor for run in drawn.runs], labels)
         budget = uncertainty_budget(drawn, solution, effects_of(test, drawn))
@@ -369,7 +341,7 @@ def few(distribution: str) -> Iterator[KnownInfluence]:
 @pytest.mark.parametrize("distribution", ["normal", "rectangular"])
 def test_the_intervals_of_the_draws_cover_at_their_rate(distribution: str) -> None:
     """Whatever the shape of the influences: the draws know it, and cover neither too seldom nor too often (JCGM 101)."""
-    asked, draws = ("C_XXX", "C_YYY", "E_XX1", "E_Xt0"), 150
+    asked, draws = ("C_XXX", "C_YYY", "E_XX1", "E_Xt0"), 100
     test = replace(blank("7 levels, twice", asked), influences=tuple(few(distribution)))
     systems = systems_for("7 levels, twice", asked)
     labels = systems.runs[0].factor.labels
@@ -377,7 +349,7 @@ def test_the_intervals_of_the_draws_cover_at_their_rate(distribution: str) -> No
     random = np.random.default_rng([101, len(distribution)])
     by_draws, first_order = np.zeros(len(labels)), np.zeros(len(labels))
     for seed in range(draws):
-        readings = readings_under(systems, test.influences, random) + of_the_run(random, len(systems.runs))
+        readings = readings_under(systems, test.influences, random) + of_the_run(random, (len(systems.runs), READINGS))
         drawn = with_readings(systems, readings)
         solution = solve_by_run([run.factor for run in drawn.runs], labels)
         effects = effects_of(test, drawn)
