@@ -49,7 +49,7 @@ class Misses:
     def __call__(self, found: Any) -> str:
         for parameter in found.parameters:
             if parameter.name == self.parameter and len(parameter.stands_for) == 1:
-                low, high = parameter.interval
+                low, high = parameter.estimate.interval()
                 return HELD if low <= self.truth <= high else MISSED
         return NOT_FOUND
 

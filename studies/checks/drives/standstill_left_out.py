@@ -39,8 +39,9 @@ STUDY = Study(
                 Misses("coulomb", TRUTH["coulomb"]),
                 (MISSED,),
                 most=0.05,
+                short=few,
             )
-            for noise, records, _ in RECORDS
+            for noise, records, few in RECORDS
         ),
         *(
             Cell(
