@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from elastogeo.errors import InputError
+from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.identification import ball_deviations, identify
 from elastogeo.machine import Array, Machine, loop_frames
 from elastogeo.observe import BallMotion, Imperfection, MachineTest, Observations, Question, Run, SphereNest
+from elastogeo.report import view_of
 from elastogeo.sources import simulate
 
 MakeMachine = Callable[..., Machine]
@@ -77,6 +78,22 @@ def test_an_offset_of_the_tool_is_the_same_deviation_whatever_the_sensors(make_m
         assert set(run.rotary) == {"A", "C"}
         assert_allclose(run.measured, np.tile([0.01, 0.0, -0.02], (24, 1)), atol=1e-5)
         assert_allclose(run.predicted, run.measured, atol=1e-5)
+
+
+@pytest.mark.parametrize("sensors", [SENSORS[:2], ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (1.0, 1.0, 0.0)), SENSORS])
+@pytest.mark.parametrize("poses", [1, 2, 24])
+def test_the_page_has_a_picture_whatever_the_sensors_and_the_poses(make_machine, sensors, poses) -> None:
+    """Sensors in one plane show no three deviations: their readings are drawn as they are."""
+    runs = tuple(Run(str(k), {"angle": ANGLE[:poses]}) for k in range(2))
+    setup = SphereNest(sensors, CENTRE, motions=(C_TURNS, A_SWINGS))
+    test = MachineTest("nest", make_machine("wCAFYXZt"), setup, runs, Question(("E_X(0A)C",)))
+    result = identify(simulate(test, {"E_X(0A)C": 0.01}, Imperfection(noise=1e-6)))
+    picture = view_of(result).picture
+    assert picture is not None
+    assert len(picture.draw().axes) == (4 if sensors is SENSORS else 1)
+    if sensors is not SENSORS:
+        with pytest.raises(UnsupportedError, match="does not show the three deviations of a ball"):
+            ball_deviations(result)
 
 
 def test_what_recorded_linear_axes_miss_is_taken_off(make_machine: MakeMachine) -> None:

@@ -31,7 +31,7 @@ from elastogeo.identification.model_choice.choice import compare_models
 from elastogeo.identification.model_choice.following import OffLevel
 from elastogeo.identification.model_choice.result import Candidate, ModelChoice
 from elastogeo.identification.model_choice.variable_compliance import VariableCompliance, gain_of
-from elastogeo.identification.nests.deviations import BallDeviations, ball_deviations
+from elastogeo.identification.nests.deviations import BallDeviations, ball_deviations, shows_deviations
 from elastogeo.identification.physics import PHYSICALLY_CONSISTENT, Consistency, consistency
 from elastogeo.identification.positioning import (
     ByTarget,
@@ -212,6 +212,7 @@ __all__ = [
     "run_dispersion",
     "run_systems",
     "shared_harmonic",
+    "shows_deviations",
     "standard_values",
     "static_line",
     "strongest_harmonic",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from elastogeo.identification import Identification
+from elastogeo.identification import Identification, shows_deviations
 from elastogeo.report.view import Picture
 
 if TYPE_CHECKING:
@@ -97,8 +97,8 @@ def picture(name: str, result: Identification) -> Picture:
 
 
 def in_a_nest(result: Identification) -> bool:
-    """Whether the readings are those of a ball in a nest."""
-    return result.test.setup.extra == "ball-deviations"
+    """Whether the readings show where a ball goes in its nest."""
+    return shows_deviations(result.test)
 
 
 def _drawn(name: str, result: Identification) -> Figure:
