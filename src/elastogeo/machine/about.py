@@ -14,15 +14,19 @@ class About:
     date : str
         `2026-03-01`, or with the time of day.
     operator : str
+        Who ran the test.
     place : str
+        Hall, or position of the machine.
     machine_serial : str
         Serial number of the machine.
     instrument : str
-        Make and model.
+        Make and model of the instrument.
     instrument_serial : str
+        Serial number of the instrument.
     instrument_calibrated : str
         Date of its last calibration, or the certificate.
     remarks : str
+        What else a reader should know.
     """
 
     date: str = ""
