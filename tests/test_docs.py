@@ -86,3 +86,10 @@ def test_the_keys_of_the_files_are_those_of_the_program_and_each_of_a_drive_file
 def test_the_reference_of_the_command_line_is_that_of_the_commands():
     make_cli = script("make_cli")
     assert make_cli.PAGE.read_text(encoding="utf-8") == make_cli.reference(), "run: python docs/make_cli.py"
+
+
+def test_table_5_9_of_the_real_data_is_what_the_program_gives():
+    made = script("make_real_data")
+    page = (DOCS / "real-data.md").read_text(encoding="utf-8")
+    assert made.with_table(page) == page, "run: python docs/make_real_data.py"
+    assert all((DOCS / name).is_file() for name in re.findall(r"\]\(([\w-]+\.svg)\)", page))
