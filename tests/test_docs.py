@@ -14,7 +14,16 @@ from elastogeo.cli import main
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
-PAGES = ("tutorial.md", "drive.md", "ball-roller.md", "static.md", "ball-bar.md", "rotary-axes.md", "positioning.md")
+PAGES = (
+    "tutorial.md",
+    "drive.md",
+    "ball-roller.md",
+    "static.md",
+    "ball-bar.md",
+    "rotary-axes.md",
+    "positioning.md",
+    "campaigns.md",
+)
 
 
 @pytest.mark.parametrize("page", PAGES)

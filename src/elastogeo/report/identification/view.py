@@ -137,11 +137,14 @@ def parameter_table(result: Identification) -> Table:
 def level_table(result: Identification) -> Table:
     """How well every force level is fitted, and what compliance and geometry do there."""
     both = all_separated(result) and {p.elastic for p in result.parameters if p.axis} == {True, False}
-    headings = ("force [N]", "readings", f"RMSE [{reading_unit(result).name}]", "fitness [%]")
+    headings: tuple[str, ...] = ("force [N]", "readings", f"RMSE [{reading_unit(result).name}]", "fitness [%]")
+    rows = tuple(_level_row(result, level)[: 6 if both else 4] for level in result.levels)
+    several = result.campaign.several
+    headings = (*headings, "compliance [µm]", "geometry [µm]") if both else headings
     return Table(
-        headings=(*headings, "compliance [µm]", "geometry [µm]") if both else headings,
-        rows=tuple(_level_row(result, level)[: 6 if both else 4] for level in result.levels),
-        words=(),
+        headings=("test", *headings) if several else headings,
+        rows=tuple((level.test, *row) for level, row in zip(result.levels, rows, strict=True)) if several else rows,
+        words=(0,) if several else (),
         title="Fit by force level",
         note="Fitness is 100 % less the RMSE in percent of the range of the readings (Eqs. 5.40, 5.41)."
         + (" Compliance and geometry: least to greatest deviation that each predicts (Figure 5.8)." if both else ""),
