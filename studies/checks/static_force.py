@@ -82,11 +82,12 @@ def ramps(
 
 
 def every() -> Iterator[Cell]:
-    sign, energy, line, cycle = (
+    sign, energy, line, cycle, run = (
         "displacement with the force",
         "energy is lost, not gained",
         "straight line enough",
         "uncertainty by cycle",
+        "uncertainty of the instrument's results by run",
     )
     yield from ramps(sign, "nothing wrong", most=0.01, short=6)
     yield from ramps(sign, "the sensor's sign is turned", least=1.0, short=6, soft=-SOFT)
@@ -99,6 +100,8 @@ def every() -> Iterator[Cell]:
     yield from ramps(line, "bent by 0.5 um", least=0.95, bend=5e-4)
     yield from ramps(cycle, "three cycles", most=0.0)
     yield from ramps(cycle, "one cycle", least=1.0, short=3, cycles=1)
+    yield from ramps(run, "three runs", most=0.0)
+    yield from ramps(run, "two runs", least=1.0, short=3, runs=2)
 
 
 STUDY = Study(
