@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -54,6 +54,10 @@ class Expansion:
             )
         if self.temperature_uncertainty < 0 or self.expansion_uncertainty < 0:
             raise InputError("the uncertainties of temperature and expansion are standard deviations; give none below zero")
+
+    def at(self, temperature: float | None) -> Expansion:
+        """The same body at another temperature [degC]; at its own where None is given."""
+        return self if temperature is None else replace(self, temperature=temperature)
 
     @property
     def stretch(self) -> float:

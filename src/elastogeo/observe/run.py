@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from elastogeo.equality import ByValue
-from elastogeo.machine import Array, Feed, Force, Length, Pressure
+from elastogeo.machine import Array, Feed, Force, Length, Pressure, Temperature
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -26,6 +26,8 @@ class Run(ByValue):
         Commanded engagement of a roller in a ball; zero or none where it only circles around it.
     feed : float or None [mm/s]
         Speed along the path, if it is not that of the set-up.
+    machine_temperature, instrument_temperature : float or None [degC]
+        Of this run, where the set-up refers lengths to 20 °C and they are not those of the set-up.
     sense : int
         +1 counter-clockwise, -1 clockwise.
     repeat : int
@@ -48,6 +50,8 @@ class Run(ByValue):
     pressure: Pressure | None = None
     engagement: Length | None = None
     feed: Feed | None = None
+    machine_temperature: Temperature | None = None
+    instrument_temperature: Temperature | None = None
     sense: int = 1
     repeat: int = 1
     notes: tuple[str, ...] = ()

@@ -24,7 +24,7 @@ from elastogeo.formats.text.fingerprint import sha256_of
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.formats.text.units import UNITS
-from elastogeo.machine import About, Feed, Force, Length, Pressure, Resolution, Time, Workpiece
+from elastogeo.machine import About, Feed, Force, Length, Pressure, Resolution, Temperature, Time, Workpiece
 from elastogeo.observe import KnownInfluence, MachineTest, Question, Run, check_runs, instrument_named, turning
 
 SCHEMA = "elastogeo.test/1"
@@ -52,6 +52,8 @@ class RunDocument:
         Of a ball-roller run.
     feed : float or None [mm/s]
         Speed along the path, if it is not that of the set-up.
+    machine_temperature, instrument_temperature : float or None [degC]
+        Of this run, if the set-up refers lengths to 20 °C and says another.
     sense : str
         ccw or cw; by default the one that the angles show.
     repeat : int
@@ -66,6 +68,8 @@ class RunDocument:
     pressure: Pressure | None = None
     engagement: Length | None = None
     feed: Feed | None = None
+    machine_temperature: Temperature | None = None
+    instrument_temperature: Temperature | None = None
     sense: str = ""
     repeat: int = 1
     start: Time | None = None
@@ -277,6 +281,8 @@ def _run(document: RunDocument, table: Table, folder: Path) -> Run:
         pressure=document.pressure,
         engagement=document.engagement,
         feed=document.feed,
+        machine_temperature=document.machine_temperature,
+        instrument_temperature=document.instrument_temperature,
         sense=_SENSES[sense],
         repeat=document.repeat,
         notes=tuple(table.metadata.get("clock", "").splitlines()),

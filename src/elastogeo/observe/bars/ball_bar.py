@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 from typing import ClassVar
@@ -12,6 +12,7 @@ import numpy as np
 from elastogeo.errors import InputError
 from elastogeo.machine import Array, Feed, LengthPerPressure, Machine, Point, follow
 from elastogeo.observe.circle import Circle, circle_facts, circle_parameters
+from elastogeo.observe.expansion import Expansion
 from elastogeo.observe.force import Calibration, force_influences, force_of_run
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
@@ -33,6 +34,7 @@ _SETUP = """\
 feed_mm_min = 2000
 # calibration = "gauge.toml"             # of elastogeo calibrate: the runs may then say pressure_bar in place of force_N
 # setup_deflection_um_per_bar = 2.33     # Eq. 5.38; needs pressure_bar in every run
+# machine_at = { temperature_degC = 22.5, expansion_um_per_m = 11.5, temperature_uncertainty_degC = 0.3 }   # to 20 degC
 # tool_mm = [0, 0, -160]                 # tool ball in the last tool-side carriage, if not the machine's own tool point
 
 """
@@ -75,6 +77,9 @@ class LoadedBallBar(OnCircle):
         Its standard uncertainty.
     setup_deflection_degrees_of_freedom : float
         Of that uncertainty.
+    machine_at, bar_at : Expansion or None
+        Temperature of the machine's scales and of the bar, with their expansions: lengths are then referred to 20 °C (ISO
+        1). A run may have temperatures of its own. None for what is at 20 °C, or was corrected.
     pulls : bool
         Whether the bar can pull its balls together: only then may a force be negative.
     """
@@ -86,6 +91,8 @@ class LoadedBallBar(OnCircle):
     setup_deflection: LengthPerPressure = 0.0
     setup_deflection_uncertainty: LengthPerPressure = 0.0
     setup_deflection_degrees_of_freedom: float = inf
+    machine_at: Expansion | None = None
+    bar_at: Expansion | None = None
     pulls: bool = False
 
     extra: ClassVar = "circularity"
@@ -129,7 +136,9 @@ class LoadedBallBar(OnCircle):
         force = self.force(run)
         direction = np.zeros((len(angle), 6), order="F")
         np.divide(commands.displacement, self.circle.radius, out=direction[:, :3])
-        correction = self.deflection(run, direction)
+        warmth = self._warmth(run)
+        longer = self.circle.radius * sum(sign * one.stretch for _, one, sign in warmth)
+        correction = self.deflection(run, direction) + longer
         observations = Observations(
             run=run.name,
             force=force,
@@ -145,7 +154,7 @@ class LoadedBallBar(OnCircle):
             tool=np.array(machine.tool) if tool is None else tool,
             workpiece=commands.ball,
             length=self.circle.radius,
-            influences=self._influences(run, direction),
+            influences=(*self._influences(run, direction), *self._warm_influences(warmth, len(angle))),
         )
         check_observations(observations)
         _check_units(run, self.circle.radius)
@@ -194,6 +203,28 @@ class LoadedBallBar(OnCircle):
         if run.pressure is None:
             raise InputError(f"run {run.name!r} has no pressure, which the set-up deflection correction (Eq. 5.38) needs")
         return np.asarray(self.setup_deflection * run.pressure * (1.0 - direction[:, 2] ** 2))
+
+    def _warmth(self, run: Run) -> list[tuple[str, Expansion, float]]:
+        """Each body that is not at 20 °C: a warm machine goes too far, a warm bar reads too little."""
+        found = []
+        if self.machine_at:
+            found.append(("machine", self.machine_at.at(run.machine_temperature), 1.0))
+        if self.bar_at:
+            found.append(("bar", self.bar_at.at(run.instrument_temperature), -1.0))
+        stated = {"machine": run.machine_temperature, "instrument": run.instrument_temperature}
+        without = [name for name, body in (("machine", self.machine_at), ("instrument", self.bar_at)) if not body]
+        wrong = next((name for name in without if stated[name] is not None), None)
+        if wrong:
+            table = "machine_at" if wrong == "machine" else "bar_at"
+            raise InputError(
+                f"run {run.name!r} states the {wrong}'s temperature, and the set-up no expansion; add {table} to [setup]"
+            )
+        return found
+
+    def _warm_influences(self, warmth: list[tuple[str, Expansion, float]], readings: int) -> Iterator[ObservedInfluence]:
+        """What is uncertain in referring lengths to 20 °C."""
+        for body, one, sign in warmth:
+            yield from one.influences(body, np.full(readings, sign * self.circle.radius))
 
     def _influences(self, run: Run, direction: Array) -> tuple[ObservedInfluence, ...]:
         """What is uncertain in the force and in the set-up's deflection, alike in all runs."""

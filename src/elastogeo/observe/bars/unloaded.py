@@ -12,6 +12,7 @@ from elastogeo.errors import InputError
 from elastogeo.machine import Feed, Machine, Point
 from elastogeo.observe.bars.ball_bar import LoadedBallBar
 from elastogeo.observe.circle import Circle, circle_facts, circle_parameters
+from elastogeo.observe.expansion import Expansion
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations
@@ -51,11 +52,15 @@ class BallBar(OnCircle):
         Speed of the tool ball along the circle.
     tool : tuple of 3 float or None [mm]
         Tool ball in the frame of the last tool-branch carriage; None for the machine's own tool point.
+    machine_at, bar_at : Expansion or None
+        As those of a loaded bar: lengths are then referred to 20 °C (ISO 1).
     """
 
     circle: Circle
     feed: Feed
     tool: Point | None = None
+    machine_at: Expansion | None = None
+    bar_at: Expansion | None = None
 
     loads: ClassVar = False
     extra: ClassVar = "circularity"
@@ -104,4 +109,4 @@ class BallBar(OnCircle):
         return replace(run, columns=seen.columns)
 
     def _loaded(self) -> LoadedBallBar:
-        return LoadedBallBar(self.circle, self.feed, self.tool)
+        return LoadedBallBar(self.circle, self.feed, self.tool, machine_at=self.machine_at, bar_at=self.bar_at)

@@ -179,7 +179,8 @@ def corrected_words(result: Identification) -> list[str]:
     ]
     if not said:
         return []
-    return [f"The deflection of the set-up is subtracted from the readings; left in, it would add {listed(said)}."]
+    what = "What the set-up adds (its deflection, temperatures)"
+    return [f"{what} is subtracted from the readings; left in, it would add {listed(said)}."]
 
 
 def assumptions(campaign: Campaign) -> list[str]:
