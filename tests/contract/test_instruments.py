@@ -40,7 +40,7 @@ TYPICAL_SIZE = {"mm/N": 1e-5, "rad/N": 3e-8, "mm/(N mm)": 3e-8, "rad/(N mm)": 1e
 GEOMETRIC_SIZE = {"mm/mm": 3e-5, "mm/mm^2": 2e-7, "rad/mm": 2e-7, "rad/mm^2": 1e-9, "rad": 2e-5, "mm": 5e-3}
 """The same of error motions and location errors."""
 
-DRAWS = 2000
+DRAWS = 1000
 SHORT_DRAWS = 400
 """For what is drawn in every arrangement, after a few have had all draws."""
 READINGS = 12
