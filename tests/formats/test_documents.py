@@ -116,6 +116,13 @@ def test_the_shipped_machines_are_those_of_the_thesis_and_say_what_is_assumed():
     assert all(machine.assumed for machine in machines.values())
 
 
+def test_a_machine_file_declares_places_that_give_way(tmp_path):
+    text = 'topology = "wYFXt"\n[places.holder]\non = "tool"\noffset_m = [0, 0, -0.06]\n[places.post]\n'
+    holder, post = read_machine(_machine(tmp_path, text + 'on = "workpiece"\ncarries_workpiece = false\n')).places
+    assert (holder.name, holder.on, holder.offset) == ("holder", "tool", (0.0, 0.0, -60.0))
+    assert (post.name, post.carries_workpiece, holder.carries_workpiece) == ("post", False, True)
+
+
 def _machine(tmp_path: Path, text: str) -> Path:
     path = tmp_path / "m.toml"
     path.write_text('schema = "elastogeo.machine/1"\nname = "m"\n' + text)
@@ -133,6 +140,9 @@ def _machine(tmp_path: Path, text: str) -> Path:
         ('topology = "wYFXt"\n[axes]\nX = 3', "must be a table"),
         ('topology = "wYYFXt"', "names the axis Y 2 times"),
         ("topology = true", "topology: input should be a valid string"),
+        ('topology = "wYFXt"\n[places]\nholder = 3', "places.holder: must be a table"),
+        ('topology = "wYFXt"\n[places.holder]\noffset_mm = [0, 0, 9]', "places.holder"),
+        ('topology = "wYFXt"\n[places.holder]\non = "Z"', "place 'holder': it is on 'Z', which is no carriage of wYFXt"),
     ],
 )
 def test_a_machine_file_that_will_not_do_is_refused(tmp_path, text, message):

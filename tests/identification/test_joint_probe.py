@@ -71,7 +71,7 @@ def test_static_forces_and_probes_at_the_tool_see_91_of_180() -> None:
     (group,) = [group for group in tool.groups if "C_XXX" in group]
     assert {"C_XXX", "C_XXY", "C_XXZ"} <= set(group)
     (said,) = [note for note in view_of(explained).notes if note.startswith("No test between tool and workpiece")]
-    assert "distinguishes C_XXY, C_XXX and C_XXZ, nor 8 more such sums: no rotary axis lies between these joints" in said
+    assert "distinguishes C_XXY, C_XXX and C_XXZ, nor 8 more such sums: no rotary axis lies between them" in said
 
 
 def test_a_probe_across_x_at_its_origin_makes_the_compliance_of_x_exact() -> None:

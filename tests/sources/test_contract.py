@@ -14,7 +14,7 @@ from numpy.testing import assert_allclose
 
 from elastogeo.estimate import Confounding, solve
 from elastogeo.identification import Systems, confounding_of, identify, merged, systems_of, with_question
-from elastogeo.machine import Array, Joint, Machine, parse_topology
+from elastogeo.machine import Array, Joint, Machine, Place, parse_topology
 from elastogeo.observe import Circle, Imperfection, LoadedBallBar, MachineTest, Question, Run
 from elastogeo.report import sentence_of
 from elastogeo.sources import PRESETS, families, select_sources, simulate
@@ -35,14 +35,15 @@ def offset_of(random: np.random.Generator) -> tuple[float, float, float]:
 
 
 def five_axes() -> Machine:
-    """An offset five-axis machine whose axes have pitches, and screws of known travel."""
+    """An offset five-axis machine whose axes have pitches, and screws of known travel; its table and holder give way."""
     topology, random = parse_topology("wCAFYXZSt"), np.random.default_rng(4)
     pitch = {**dict.fromkeys("XYZ", 20.0), **dict.fromkeys("AC", 0.5)}
     joints = tuple(
         Joint(axis, offset_of(random), travel=TRAVEL.get(axis, UNKNOWN), pitch=pitch.get(axis), compliant=axis != "S")
         for axis in topology.axes
     )
-    return Machine("five axes", topology, joints, tool=(10.0, -20.0, 90.0))
+    places = (Place("table", "workpiece", offset_of(random)), Place("holder", "tool", offset_of(random)))
+    return Machine("five axes", topology, joints, tool=(10.0, -20.0, 90.0), places=places)
 
 
 CIRCLES = {

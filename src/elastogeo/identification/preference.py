@@ -46,8 +46,10 @@ def _rank(source: Source, machine: Machine, moving: frozenset[str]) -> tuple[int
     axis, displacement, load = source.site[1], source.component, source.load
     if load is None or not axis:
         return (_LAST,)
+    kind = (displacement >= 3) + 2 * (load >= 3)
+    if source.site[0] == "place":  # rigid by default: the joint is retained
+        return (True, True, kind, displacement, load, _LAST)
     joint = machine.joints[machine.index(axis)]
     on_axis = displacement == load == joint.direction + 3 * joint.is_rotary
     moves = axis in moving
-    kind = (displacement >= 3) + 2 * (load >= 3)
     return (not (on_axis and moves), not moves, kind, displacement, load, AXIS_ORDER.index(axis))

@@ -15,6 +15,7 @@ from elastogeo.machine.frames import (
 )
 from elastogeo.machine.jacobian import COMPONENTS, carried_to, jacobian
 from elastogeo.machine.machine import DOWN, Joint, Machine
+from elastogeo.machine.places import Place
 from elastogeo.machine.quantity import (
     MM_OR_RAD,
     Angle,
@@ -83,6 +84,7 @@ __all__ = [
     "Mass",
     "Motion",
     "PerLength",
+    "Place",
     "Point",
     "Pressure",
     "Pressures",

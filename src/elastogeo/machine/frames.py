@@ -7,13 +7,14 @@ readings is one fast vector. What does not change along the poses is stored once
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from elastogeo.errors import MachineError
 from elastogeo.estimate import Array
 from elastogeo.machine.machine import Joint, Machine
+from elastogeo.machine.places import TOOL, WORKPIECE
 
 UPRIGHT: Array = np.eye(3)[np.newaxis]
 """The rotation of every frame that stands as the foundation does: this very array is passed on along the loop, so that
@@ -83,16 +84,24 @@ class LoopFrames:
         Last carriage of the workpiece branch (the table).
     point : array, shape (m, 3) or (1, 3) [mm]
         The functional point of the tool in the foundation.
+    places : dict of str to tuple of Frame, float
+        Of each place that the machine declares its frame, and the sign of its branch.
     """
 
     joints: dict[str, JointFrames]
     tool: Frame
     workpiece: Frame
     point: Array
+    places: dict[str, tuple[Frame, float]] = field(default_factory=dict)
+
+    def carried_at(self, name: str) -> tuple[Frame, float]:
+        """Where the load of an axis or a place acts, by its name: the frame, and the sign of its branch."""
+        joint = self.joints.get(name)
+        return self.places[name] if joint is None else (joint.motion, joint.side)
 
 
 Site = tuple[str, str]
-"""Where a small twist acts: ("location", axis), ("motion", axis), ("tool", "") or ("workpiece", "")."""
+"""Where a small twist acts: ("location", axis), ("motion", axis), ("place", its name), ("tool", "") or ("workpiece", "")."""
 
 GROUND = Frame(UPRIGHT, np.zeros((1, 3)))
 
@@ -145,7 +154,22 @@ def loop_frames(
     described = {joint.name: joint for joint in machine.joints}
     joints: dict[str, JointFrames] = {}
     ends: list[Frame] = []
-    for side, branch in ((-1.0, reversed(machine.topology.workpiece)), (1.0, iter(machine.topology.tool))):
+    places: dict[str, tuple[Frame, float]] = {}
+
+    def through_places(on: str, carriage: Frame, side: float) -> Frame:
+        for place in machine.places:
+            if place.on == on:
+                offset = np.asarray(place.offset)
+                at = Frame(carriage.rotation, carriage.point(offset))
+                places[place.name] = at, side
+                twisted = _twisted(at, twists.get(("place", place.name)))
+                carriage = carriage if twisted is at else Frame(twisted.rotation, twisted.point(-offset))
+        return carriage
+
+    for side, end, branch in (
+        (-1.0, WORKPIECE, reversed(machine.topology.workpiece)),
+        (1.0, TOOL, iter(machine.topology.tool)),
+    ):
         frame = GROUND
         for axis in branch:
             joint = described[axis]
@@ -153,10 +177,11 @@ def loop_frames(
             moved = _moved(location, joint, side * steady(travels[axis]))
             frame = _twisted(moved, twists.get(("motion", axis)))
             joints[axis] = JointFrames(location, frame, side)
-        ends.append(frame)
+            frame = through_places(axis, frame, side)
+        ends.append(through_places(end, frame, side))
     workpiece, carriage = ends
     point = carriage.point(np.asarray(machine.tool if tool is None else tool, dtype=float))
-    return LoopFrames(joints, carriage, workpiece, point)
+    return LoopFrames(joints, carriage, workpiece, point, places)
 
 
 def steady(values: Array) -> Array:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from math import inf, isfinite
 
 from elastogeo.errors import MachineError
+from elastogeo.machine.places import Place, check_places
 from elastogeo.machine.quantity import Mass, Pitch, Point, RotationVector, Travel
 from elastogeo.machine.topology import AXIS_ORDER, LINEAR, ROTARY, SPINDLE, Topology
 
@@ -77,6 +78,8 @@ class Machine:
         Direction of gravity in the foundation, a unit vector.
     assumed : tuple of str
         What of this description is assumed rather than measured or published, in words.
+    places : tuple of Place
+        What gives way beside the joints; by default nothing does.
     """
 
     name: str
@@ -85,6 +88,7 @@ class Machine:
     tool: Point = _ZERO
     assumed: tuple[str, ...] = ()
     gravity: tuple[float, float, float] = DOWN
+    places: tuple[Place, ...] = ()
 
     def __post_init__(self) -> None:
         """Fill in the default joints and refuse a description that contradicts itself."""
@@ -152,3 +156,4 @@ def check_machine(machine: Machine) -> None:
         )
     if not all(map(isfinite, machine.tool)):
         raise MachineError(f"machine {machine.name!r}: the tool point must be three finite numbers")
+    check_places(machine.places, machine.topology, machine.name)

@@ -1,7 +1,7 @@
 """Weights that load a machine: its carriages, and the workpiece on its table.
 
-A weight on a body of one branch is carried by the joints between that body and the foundation, and by no other. It acts in
-the direction of gravity at the body's centre of gravity, which moves and turns with the axes that carry it.
+A weight on a body of one branch is carried by the joints and places between that body and the foundation, and by no other.
+It acts in the direction of gravity at the body's centre of gravity, which moves and turns with the axes that carry it.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from elastogeo.estimate import Array
 from elastogeo.machine.frames import Frame, LoopFrames
 from elastogeo.machine.jacobian import carried_to
 from elastogeo.machine.machine import Machine
+from elastogeo.machine.places import WORKPIECE
 from elastogeo.machine.quantity import Mass, Point
 
 STANDARD_GRAVITY = 9806.65
@@ -47,7 +48,7 @@ class Workpiece:
 
 
 def weight_loads(machine: Machine, frames: LoopFrames, workpiece: Workpiece | None = None) -> dict[str, Array]:
-    """What known weights load each joint with, along and about its motion frame.
+    """What known weights load each joint with, along and about its motion frame, and each place.
 
     Parameters
     ----------
@@ -60,32 +61,34 @@ def weight_loads(machine: Machine, frames: LoopFrames, workpiece: Workpiece | No
     Returns
     -------
     dict of str to array, shape (m, 6) or (1, 6) [N, N mm]
-        By axis; a joint that carries no known weight is not in it.
+        By axis or name of a place; what carries no known weight is not in it.
     """
     loads: dict[str, Array] = {}
     for force, body, centre, carriers in _weights(machine, frames, workpiece):
         at = body.point(np.asarray(centre))
-        for axis in carriers:
-            joint = frames.joints[axis].motion
-            acting = np.broadcast_to(force, (max(len(at), len(joint.origin), len(joint.rotation)), 6))
-            load = carried_to(joint, at, acting)
-            loads[axis] = loads[axis] + load if axis in loads else load
+        for name in carriers:
+            frame, _ = frames.carried_at(name)
+            acting = np.broadcast_to(force, (max(len(at), len(frame.origin), len(frame.rotation)), 6))
+            load = carried_to(frame, at, acting)
+            loads[name] = loads[name] + load if name in loads else load
     return loads
 
 
 def _weights(
     machine: Machine, frames: LoopFrames, workpiece: Workpiece | None
 ) -> Iterator[tuple[Array, Frame, Point, tuple[str, ...]]]:
-    """Each weight: its force, the body it is fixed to, its centre of gravity there, and the joints that carry it."""
+    """Each weight: its force, the body it is fixed to, its centre of gravity there, and what carries it."""
     masses = {joint.name: (joint.mass, joint.centre_of_gravity) for joint in machine.joints if joint.mass}
     for branch in (tuple(reversed(machine.topology.workpiece)), machine.topology.tool):
         for k, axis in enumerate(branch):
             if axis in masses:
                 mass, centre = masses[axis]
-                yield _force(machine, mass), frames.joints[axis].motion, centre, branch[: k + 1]
+                below = tuple(place.name for place in machine.places if place.on in branch[:k])
+                yield _force(machine, mass), frames.joints[axis].motion, centre, (*branch[: k + 1], *below)
     if workpiece is not None and workpiece.mass:
-        carriers = tuple(machine.topology.workpiece)
-        yield _force(machine, workpiece.mass), frames.workpiece, workpiece.centre, carriers
+        axes = machine.topology.workpiece
+        below = tuple(p.name for p in machine.places if p.carries_workpiece and p.on in (*axes, WORKPIECE))
+        yield _force(machine, workpiece.mass), frames.workpiece, workpiece.centre, (*axes, *below)
 
 
 def _force(machine: Machine, mass: float) -> Array:

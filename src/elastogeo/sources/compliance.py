@@ -22,7 +22,7 @@ _WORDS = {
 
 @dataclass(frozen=True, slots=True)
 class JointLoad:
-    """Driver: the load component f at joint j, `(J^T W)[j, f]`."""
+    """Driver: the load component f at joint j, `(J^T W)[j, f]`, or at a place, by its name."""
 
     axis: str
     component: int
@@ -40,17 +40,26 @@ def joint_compliance(machine: Machine) -> Iterator[Source]:
 
 
 def _compliance(joint: Joint, d: int, f: int) -> Source:
-    load = f"force in {COMPONENTS[f].lower()}" if f < 3 else f"moment about {COMPONENTS[f - 3].lower()}"
     return Source(
         name=f"C_{COMPONENTS[d]}{COMPONENTS[f]}{joint.name}",
         unit=f"{twist_unit(d)}/{'N' if f < 3 else '(N mm)'}",
         site=("motion", joint.name),
         component=d,
         driver=JointLoad(joint.name, f),
-        meaning=f"{_WORDS[COMPONENTS[d]]} for a {load}, at joint {joint.name}",
+        meaning=f"{twist_words(d)} for a {load_words(f)}, at joint {joint.name}",
         load=f,
         force_degree=1.0,
     )
+
+
+def twist_words(component: int) -> str:
+    """A displacement component in words: `rotation about z`."""
+    return _WORDS[COMPONENTS[component]]
+
+
+def load_words(component: int) -> str:
+    """A load component in words: `moment about x`."""
+    return f"{'moment about' if component >= 3 else 'force in'} {'xyz'[component % 3]}"
 
 
 def alike_at_the_tool(machine: Machine) -> tuple[tuple[str, ...], ...]:
@@ -58,19 +67,32 @@ def alike_at_the_tool(machine: Machine) -> tuple[tuple[str, ...], ...]:
 
     A linear joint that gives way along a fixed direction displaces the tool by the same vector wherever it sits in the loop,
     and carries the same force: the columns of such joints in a row, with no rotary joint between and none inclined, are
-    identical. Across the foundation too: both signs turn.
+    identical. Across the foundation too: both signs turn. So are those of places that the machine declares between them.
     """
-    rows: list[list[Joint]] = [[]]
-    for name in machine.axes:
-        joint = machine.joints[machine.index(name)]
-        if joint.is_rotary or any(joint.tilt):
+    rows: list[list[str]] = [[]]
+    for name in _in_a_row(machine):
+        joint = next((joint for joint in machine.joints if joint.name == name), None)
+        if joint is None:
+            rows[-1].append(f"CL_{{}}{name}")
+        elif joint.is_rotary or any(joint.tilt):
             rows.append([])
         elif joint.compliant:
-            rows[-1].append(joint)
+            rows[-1].append(f"C_{{}}{name}")
     return tuple(
-        tuple(f"C_{COMPONENTS[d]}{COMPONENTS[f]}{joint.name}" for joint in row)
+        tuple(name.format(COMPONENTS[d] + COMPONENTS[f]) for name in row)
         for row in rows
         if len(row) > 1
         for d in range(3)
         for f in range(3)
     )
+
+
+def _in_a_row(machine: Machine) -> Iterator[str]:
+    """Axes and places from the workpiece to the tool; a place comes after its carriage, seen from the foundation."""
+    on = {place.on: [other.name for other in machine.places if other.on == place.on] for place in machine.places}
+    yield from reversed(on.get("workpiece", []))
+    for axis in machine.topology.workpiece:
+        yield from (*reversed(on.get(axis, [])), axis)
+    for axis in machine.topology.tool:
+        yield from (axis, *on.get(axis, []))
+    yield from on.get("tool", [])

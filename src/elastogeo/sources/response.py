@@ -115,10 +115,9 @@ def column_ceilings(sources: Sequence[Source], machine: Machine, observations: O
     What is 1e-12 of that is rounding error: a source that moves no reading, whatever its unit.
     """
     situation = Situation(machine, observations)
-    lever = max(
-        float(np.linalg.norm(situation.frames.point - joint.motion.origin, axis=1).max())
-        for joint in situation.frames.joints.values()
-    )
+    frames = situation.frames
+    loaded = [frames.carried_at(name)[0] for name in (*frames.joints, *frames.places)]
+    lever = max(float(np.linalg.norm(frames.point - frame.origin, axis=1).max()) for frame in loaded)
     carried = [float(np.abs(load[:, :3]).max()) for load in situation.weights.values()]
     force = float(situation.force().max()) + max(carried, default=0.0)
     moment = force * lever + float(np.abs(observations.wrench[:, 3:]).max())
@@ -177,7 +176,7 @@ def site_twists(values: Iterable[tuple[Source, float]], situation: Situation) ->
     """Twist, shape (m, 6) [mm, rad], that parameter values cause at each site that the instrument sees."""
     twists: dict[Site, Array] = {}
     for source, value in values:
-        if source.site[0] != "reading" and not situation.observations.sees(source.site[1]):
+        if not situation.sees(source.site):
             continue
         twist = twists.setdefault(source.site, np.zeros((len(situation.observations), 6)))
         twist[:, source.component] += value * source.driver(situation)

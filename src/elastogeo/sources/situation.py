@@ -25,7 +25,7 @@ class Situation:
     frames : LoopFrames
         At the poses of the observations.
     weights : dict of str to array, shape (m, 6) or (1, 6) [N, N mm]
-        What known weights load each joint with that carries any.
+        What known weights load each joint and place with that carries any.
     """
 
     machine: Machine
@@ -49,17 +49,24 @@ class Situation:
         """
         if site[0] == "reading":
             return np.ones((len(self.observations), 1))
-        if not self.observations.sees(site[1]):
+        if not self.sees(site):
             return np.zeros((len(self.observations), 6))
         return self._at("direction", site)
 
-    def load(self, axis: str) -> Array:
-        """Load along and about the axes of a joint's motion frame, shape (m, 6) [N, N mm].
+    def sees(self, site: Site) -> bool:
+        """Whether a twist at a site moves what the instrument reads: a place moves what sits on it."""
+        if site[0] != "place":
+            return site[0] == "reading" or self.observations.sees(site[1])
+        place = next(place for place in self.machine.places if place.name == site[1])
+        return self.observations.sees(place.beyond(self.machine.topology))
 
-        `J^T W` of the wrench at the tool (Eq. 4.5), and the weights that the joint carries (8.2).
+    def load(self, name: str) -> Array:
+        """Load along and about the axes of a joint's motion frame, or of a place, shape (m, 6) [N, N mm].
+
+        `J^T W` of the wrench at the tool (Eq. 4.5), and the weights that the joint or place carries (8.2).
         """
-        of_wrench = self._at("wrench", ("motion", axis))
-        return of_wrench + self.weights[axis] if axis in self.weights else of_wrench
+        of_wrench = self._at("wrench", ("place" if name in self.frames.places else "motion", name))
+        return of_wrench + self.weights[name] if name in self.weights else of_wrench
 
     def command(self, axis: str) -> Array:
         """Commands of an axis, shape (m,) [mm or rad]."""
@@ -114,12 +121,14 @@ class Situation:
         return self._carried[quantity, site]
 
     def _frame(self, site: Site) -> tuple[Frame, float]:
-        place, axis = site
-        match place:
+        kind, name = site
+        match kind:
             case "tool":
                 return Frame(self.frames.tool.rotation, self.frames.point), 1.0
             case "workpiece":
                 return Frame(self.frames.workpiece.rotation, self.frames.point), -1.0
+            case "place":
+                return self.frames.places[name]
             case _:
-                joint = self.frames.joints[axis]
-                return getattr(joint, place), joint.side
+                joint = self.frames.joints[name]
+                return getattr(joint, kind), joint.side

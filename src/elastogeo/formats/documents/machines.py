@@ -11,7 +11,7 @@ from typing import Any
 from elastogeo.errors import FormatError
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.formats.text.units import UNITS
-from elastogeo.machine import DOWN, ROTARY, SPINDLE, Joint, Machine, Point, parse_topology
+from elastogeo.machine import DOWN, ROTARY, SPINDLE, Joint, Machine, Place, Point, parse_topology
 
 SCHEMA = "elastogeo.machine/1"
 
@@ -27,6 +27,7 @@ class MachineDocument:
     assumed: tuple[str, ...] = ()
     gravity: tuple[float, float, float] = DOWN
     axes: Mapping[str, Any] = field(default_factory=dict)
+    places: Mapping[str, Any] = field(default_factory=dict)
 
 
 def shipped_machines() -> dict[str, Path]:
@@ -66,7 +67,8 @@ def read_machine(path: str | Path) -> Machine:
     ----------
     path : str or Path
         The name of a shipped machine (`hermle_c50`), or a TOML file with `schema`, `name`, `topology`, `tool_mm`, and a
-        table per axis with `offset_mm`, `tilt_deg`, `travel_mm` or `travel_deg`, `compliant`.
+        table per axis with `offset_mm`, `tilt_deg`, `travel_mm` or `travel_deg`, `compliant`; and a table
+        `[places.NAME]` with `on` and `offset_mm` per place that gives way beside the joints.
 
     Raises
     ------
@@ -89,7 +91,15 @@ def read_machine(path: str | Path) -> Machine:
     if strangers:
         raise FormatError(f"{path}: the table axes.{strangers[0]} names no axis of {topology.compact}; remove it")
     joints = tuple(_joint(axis, document.axes.get(axis, {}), path) for axis in topology.axes)
-    return Machine(document.name, topology, joints, document.tool, document.assumed, document.gravity)
+    places = tuple(_place(name, table, path) for name, table in document.places.items())
+    return Machine(document.name, topology, joints, document.tool, document.assumed, document.gravity, places)
+
+
+def _place(name: str, table: Any, path: Path) -> Place:
+    where = f"{path}, places.{name}"
+    if not isinstance(table, Mapping):
+        raise FormatError(f"{where}: must be a table, got {table!r:.60}")
+    return build(Place, {**table, "name": name}, where)
 
 
 def _joint(axis: str, table: Any, path: Path) -> Joint:

@@ -21,7 +21,7 @@ def inseparable_words(machine: Machine, found: Confounding) -> tuple[str, ...]:
     first, *others = together
     more = f", nor {len(others)} more such {'sum' if len(others) == 1 else 'sums'}" if others else ""
     return (
-        f"No test between tool and workpiece distinguishes {listed(first)}{more}: no rotary axis lies between these joints, "
-        f"so that the same force displaces the tool alike through each of them, at every pose. A displacement probe across "
+        f"No test between tool and workpiece distinguishes {listed(first)}{more}: no rotary axis lies between them, "
+        f"so that the same force displaces the tool alike through each, at every pose. A displacement probe across "
         f"a joint, at the origin of its carriage's frame (joint-probe), distinguishes it.",
     )

@@ -2,6 +2,7 @@
 
 name, topology, topology_iso, tool_mm, assumed : `assumed` says in words what was not measured
 axes : [{name, offset_mm, tilt_rad, travel, travel_unit, compliant}], from the workpiece to the tool
+places : [{name, on, offset_mm, carries_workpiece}], what gives way beside the joints
 """
 
 from __future__ import annotations
@@ -34,6 +35,15 @@ def machine_json(machine: Machine) -> dict[str, Any]:
                     "compliant": joint.compliant,
                 }
                 for joint in machine.joints
+            ],
+            "places": [
+                {
+                    "name": place.name,
+                    "on": place.on,
+                    "offset_mm": place.offset,
+                    "carries_workpiece": place.carries_workpiece,
+                }
+                for place in machine.places
             ],
         },
     )

@@ -24,6 +24,7 @@ def machine_view(machine: Machine) -> View:
         title="Axes, from the workpiece to the tool",
     )
     assumed = tuple(f"Assumed: {sentence}" for sentence in machine.assumed)
+    places = _places(machine)
     document = machine_json(machine)
     return View(
         kind="Machine",
@@ -44,10 +45,17 @@ def machine_view(machine: Machine) -> View:
         checks=(),
         document=document,
         rows=document["axes"],
-        tables=(table,),
+        tables=(table, *places),
         notes=assumed,
-        sections=(Section("Axes", tables=(table,), points=assumed),),
+        sections=(Section("Axes", tables=(table, *places), points=assumed),),
     )
+
+
+def _places(machine: Machine) -> tuple[Table, ...]:
+    """What gives way beside the joints; nothing if the machine declares no place."""
+    rows = tuple((p.name, p.on, pretty(", ".join(f"{value:g}" for value in p.offset))) for p in machine.places)
+    title = "Places that give way beside the joints"
+    return (Table(("place", "on the carriage", "offset [mm]"), rows, words=(0, 1, 2), title=title),) if rows else ()
 
 
 def _row(machine: Machine, k: int) -> tuple[str, ...]:
