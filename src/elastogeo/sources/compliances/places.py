@@ -2,7 +2,7 @@
 
 Holder, spindle nose, table, the post of a bar: whatever gives way between two carriages, or beyond the last one. A place and
 the joint of its own carriage are one spring with a fixed lever between: all 36 compliances of the one are sums of those of
-the other, and no pose, force or tool distinguishes them. A probe that spans one of them alone does, and the own weight of the
+the other, and no pose, force or tool distinguishes them. A probe that spans one of them does, and the own weight of the
 carriage, which loads the joint only. Where few compliances are asked for, translations for forces are those of every joint
 with no turning axis between; rotations for moments have levers of their own, which tools of several lengths show.
 """
