@@ -11,6 +11,7 @@ from elastogeo.identification.calibrations import (
     calibrate_force,
     calibrate_setup,
 )
+from elastogeo.identification.campaigns.agreement import AgainstOthers, TestsAgreement
 from elastogeo.identification.campaigns.parts import TestPart
 from elastogeo.identification.change import SIGNIFICANT, Change, difference, local_change, run_dispersion
 from elastogeo.identification.check import Check
@@ -100,6 +101,7 @@ __all__ = [
     "SET_UP",
     "SIGNIFICANT",
     "AgainstDynamometer",
+    "AgainstOthers",
     "Agreement",
     "AxisDrive",
     "BallDeviations",
@@ -162,6 +164,7 @@ __all__ = [
     "Symmetry",
     "Systems",
     "TestPart",
+    "TestsAgreement",
     "TorqueParts",
     "Trace",
     "TwistPlace",

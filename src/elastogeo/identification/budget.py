@@ -294,15 +294,32 @@ def _across(columns: Sequence[Array], effect: Effect) -> Array:
 
 def _sensitivity(systems: Systems, solution: Solution, effect: Effect, runs: _Moments) -> Array:
     """Change of the estimate per unit of the influence quantity, shape (p,)."""
+    moved = _moved(systems, solution, effect, runs).sum(axis=0)
+    return np.asarray(np.linalg.solve(runs.gram.sum(axis=0), moved) / runs.norms)
+
+
+def _moved(systems: Systems, solution: Solution, effect: Effect, runs: _Moments) -> Array:
+    """By how much the normal equations of each run are off per unit of the influence quantity, shape (runs, p)."""
     values = solution.values * runs.norms
     rest = runs.moment - runs.gram @ values
-    moved = effect.stretch @ (runs.powers * rest - runs.gram @ (runs.powers * values))
-    moved -= _shifted(systems, solution, effect, runs.norms).sum(axis=0)
+    moved = effect.stretch[:, np.newaxis] * (runs.powers * rest - runs.gram @ (runs.powers * values))
+    moved -= _shifted(systems, solution, effect, runs.norms)
     changes = _counted(systems, _columns(systems, solution, effect, runs.norms))
-    for run, change in zip(systems.runs, changes, strict=False):
+    for k, (run, change) in enumerate(zip(systems.runs, changes, strict=False)):
         design = run.design_of(solution.labels) / runs.norms
-        moved += change.T @ (run.reading - design @ values) - design.T @ (change @ values)
-    return np.asarray(np.linalg.solve(runs.gram.sum(axis=0), moved) / runs.norms)
+        moved[k] += change.T @ (run.reading - design @ values) - design.T @ (change @ values)
+    return np.asarray(moved)
+
+
+def moments_moved(systems: Systems, solution: Solution, effects: Sequence[Effect]) -> Array:
+    """By how much the normal equations of each run are off for one standard uncertainty of each effect.
+
+    Shape (effects, runs, p), of columns scaled to unit length over all runs.
+    """
+    runs = _moments(systems, solution)
+    sizes = (effect.influence.standard_uncertainty for effect in effects)
+    found = [size * _moved(systems, solution, effect, runs) for size, effect in zip(sizes, effects, strict=True)]
+    return np.array(found).reshape(len(effects), len(systems.runs), len(runs.norms))
 
 
 def _sampler(systems: Systems, solution: Solution, effects: Sequence[Effect]) -> Callable[[np.random.Generator, int], Array]:

@@ -20,6 +20,7 @@ from elastogeo.estimate import (
     solve_as_runs_show,
 )
 from elastogeo.identification.budget import Budget, agreement, uncertainty_budget
+from elastogeo.identification.campaigns.agreement import tests_agree, tests_agreement
 from elastogeo.identification.campaigns.parts import Shares, TestPart, shares_of
 from elastogeo.identification.campaigns.scopes import truth_of
 from elastogeo.identification.check import Check
@@ -183,6 +184,7 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
     if elastic and not campaign.several and not systems.references and len(systems.levels) >= LEVELS_FOR_MODELS:
         models = compare_models(campaign.machine, systems, result.confounding.retained, bool(circles))
         result = replace(result, models=models)
+    result = replace(result, tests_agreement=tests_agreement(systems, result.solution, known))
     result, drawn = _held_against_draws(result, systems, known)
     physics = None
     if elastic:
@@ -218,6 +220,7 @@ def _assessed(result: Identification, systems: Systems, known: Sequence[Effect])
         ),
         model_adequate(result.models) if result.models else None,
         levels_agree(result.models) if result.models else None,
+        tests_agree(result.tests_agreement) if result.tests_agreement else None,
         geometry_constant(result.models, result.local_change, geometric) if result.models and geometric else None,
         physics,
     )

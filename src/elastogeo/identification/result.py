@@ -9,6 +9,7 @@ from elastogeo.equality import ByValue
 from elastogeo.errors import SelectionError
 from elastogeo.estimate import Confounding, Estimate, Repeatability, Solution
 from elastogeo.identification.budget import Agreement, Budget
+from elastogeo.identification.campaigns.agreement import TestsAgreement
 from elastogeo.identification.campaigns.parts import TestPart
 from elastogeo.identification.change import Change
 from elastogeo.identification.check import Check
@@ -274,6 +275,8 @@ class Identification(Result):
         Whether the compliances agree with physics; None if none was asked for, or they are not told from geometry.
     missing_geometry : MissingGeometry or None
         The answer with geometry that the data support besides; None unless physics is contradicted and there is such.
+    tests_agreement : TestsAgreement or None
+        Of several tests, whether they agree, and how well all others predict each.
     verdict : tuple of Check
     """
 
@@ -306,6 +309,7 @@ class Identification(Result):
     responses: tuple[Response, ...] = ()
     variable: VariableCompliance | None = None
     missing_geometry: MissingGeometry | None = None
+    tests_agreement: TestsAgreement | None = None
 
     @property
     def test(self) -> MachineTest:

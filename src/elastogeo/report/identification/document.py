@@ -1,12 +1,20 @@
 """`elastogeo.identification/1`: what one test says, or several tests of one machine together.
 
 test, verdict : as in `envelope`; of several tests `test` holds what they have in common, and the files of all
-tests : [{name, ..., id, readings, forces_N, rmse_um, scatter_um, rank, alone, rank_so_far, adds, information}], one for each
+tests : [{name, ..., id, readings, forces_N, rmse_um, scatter_um, rank, alone, rank_so_far, adds, information,
+    left_out_um, left_out_fitted, against_others}], one for each
     test, in order: the entries of `test`, then the name of the test in the campaign; `rmse_um` against the estimate from
     all tests, `scatter_um` about its own best fit, which decides what its readings count (null of one test; `rmse_urad`
     and `scatter_urad` where it reads angles); how many combinations it determines alone, and which `parameters`; how many
     it determines with those before it, and which parameters only then; `information` is {parameter: share}, 1 less the
-    variance with all tests over that without this one, 1 where only this test determines the parameter
+    variance with all tests over that without this one, 1 where only this test determines the parameter; `left_out_um` is the
+    RMSE of its readings against the prediction from all other tests, after as many combinations as `left_out_fitted`, which
+    the others do not determine, are fitted to it; `against_others` is {directions, statistic, degrees_of_freedom, p_value},
+    of the differences in what it and the others determine: `p_value` is adjusted for the number of tests and levels. Null of
+    one test, `statistic` and `p_value` also where nothing is shared
+tests_agreement : {disagreeing, named, rest_agrees, level_N, run, scatter, degrees_of_freedom}, null of one test: the tests
+    that differ from the others; those without which the others agree; `level_N` and `run` are what alone is wrong of the one
+    that is named, null and empty if no single one is; `scatter` of runs over that of readings
 together : [name], of several tests the `parameters` that none of them determines alone
 by_run : whether the runs are enough for an uncertainty that counts on independent runs; if not, there is none
 parameters : the retained set, [{name, value, unit, standard_uncertainty, interval95, stands_for, peak_to_peak_um, share,
@@ -57,10 +65,12 @@ minimum_norm : {name: value} over all parameters that were asked for; not an est
 
 from __future__ import annotations
 
+from math import isnan
 from typing import Any
 
 from elastogeo.estimate import Confounding, Repeatability
 from elastogeo.identification import (
+    AgainstOthers,
     Agreement,
     BudgetLine,
     Change,
@@ -72,6 +82,7 @@ from elastogeo.identification import (
     ModelChoice,
     Parameter,
     TestPart,
+    TestsAgreement,
     VariableCompliance,
 )
 from elastogeo.report.document import UM, document, in_um, tested, tested_together, verdict_entries
@@ -101,6 +112,7 @@ def identification_json(result: Identification) -> dict[str, Any]:
             "test": tested_together(result.campaign, result.reference_force),
             "tests": [_test(result, part) for part in result.tests],
             "together": result.together,
+            "tests_agreement": None if result.tests_agreement is None else _agreement(result.tests_agreement),
             "by_run": result.by_run,
             "parameters": [_parameter(result, k, parameter) for k, parameter in enumerate(result.parameters)],
             **confounding_entries(result.confounding),
@@ -125,6 +137,8 @@ def identification_json(result: Identification) -> dict[str, Any]:
 def _test(result: Identification, part: TestPart) -> dict[str, Any]:
     """What one test of a campaign adds."""
     unit = "urad" if part.angular else "um"
+    found = result.tests_agreement
+    against = None if found is None else found.against[part.name]
     return {
         **tested(result.campaign.tests[part.name], result.reference_force),
         "id": part.name,
@@ -137,6 +151,31 @@ def _test(result: Identification, part: TestPart) -> dict[str, Any]:
         "rank_so_far": part.rank_so_far,
         "adds": part.adds,
         "information": {name: shares[part.name] for name, shares in result.information.items()},
+        f"left_out_{unit}": None if against is None else against.rmse * (MICRO if part.angular else UM),
+        "left_out_fitted": None if against is None else against.fitted,
+        "against_others": None if against is None else _against(against),
+    }
+
+
+def _against(one: AgainstOthers) -> dict[str, Any]:
+    return {
+        "directions": one.directions,
+        "statistic": one.statistic,
+        "degrees_of_freedom": one.degrees_of_freedom,
+        "p_value": one.p_value,
+    }
+
+
+def _agreement(found: TestsAgreement) -> dict[str, Any]:
+    """Whether the tests agree, and what does not."""
+    return {
+        "disagreeing": found.disagreeing,
+        "named": found.named,
+        "rest_agrees": found.rest_agrees,
+        "level_N": found.level,
+        "run": found.run,
+        "scatter": None if isnan(found.scatter) else found.scatter,
+        "degrees_of_freedom": found.scatter_freedom,
     }
 
 

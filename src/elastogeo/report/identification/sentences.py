@@ -113,6 +113,45 @@ def separated(facts: Facts, passed: bool | None) -> str:
     )
 
 
+@says("tests agree")
+def tests_agree(facts: Facts, passed: bool | None) -> str:
+    """Whether the tests agree, and which does not."""
+    if passed is None:
+        return (
+            "Not tested: no runs of one test show how runs scatter; repeat runs, or measure more levels."
+            if facts["shared"]
+            else "Not tested: no two tests determine the same."
+        )
+    if passed:
+        alone = f" Nothing else determines what {' and '.join(facts['unshared'])} says." if facts["unshared"] else ""
+        return f"Each test agrees with all others, by the scatter of runs and the stated influences.{alone}"
+    named, rest = facts["named"], facts["rest_agrees"]
+    if len(named) > 1:
+        return (
+            f"The tests contradict one another; without {_either(named)} the others agree, and the tests cannot say which "
+            f"of them is wrong. Check their forces, axes and radii, or measure one more."
+        )
+    (name,) = named
+    if not rest:
+        others = ", ".join(one for one in facts["disagreeing"] if one != name)
+        return (
+            f"{name} contradicts the others most, and without it they still disagree ({others}): more than one test is "
+            f"wrong, or the model is. Check forces, axes and radii, and ask for what else may move between the tests."
+        )
+    if facts["run"] or facts["level"] is not None:
+        part = f"the run at {facts['level']:g} N" if facts["run"] and facts["level"] is not None else ""
+        part = part or (facts["run"] if facts["run"] else f"the level of {facts['level']:g} N")
+        return f"{name} contradicts the others, and only because of {part}: without it all agree. Check that force and run."
+    return (
+        f"{name} contradicts the others, which agree without it. Check its force, its axes and its radius as stated; leave "
+        f"it out, or ask for what changed before it."
+    )
+
+
+def _either(names: tuple[str, ...]) -> str:
+    return f"{', '.join(names[:-1])} or {names[-1]}"
+
+
 @says("uncertainty by run")
 def uncertainty_by_run(facts: Facts, passed: bool | None) -> str:
     """What the uncertainties assume to be independent."""

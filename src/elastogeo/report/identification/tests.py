@@ -15,13 +15,14 @@ def test_table(result: Identification) -> Table:
     """One row for each test."""
     rows = tuple(_row(result, part) for part in result.tests)
     return Table(
-        ("test", "instrument", "runs", "force [N]", "RMSE", "scatter", "rank", "rank so far", "adds"),
+        ("test", "instrument", "runs", "force [N]", "RMSE", "left out", "scatter", "rank", "rank so far", "adds"),
         rows,
-        words=(0, 1, 8),
+        words=(0, 1, 9),
         title="Tests",
-        note="RMSE: of its readings against the estimate from all tests; scatter: about its own best fit, which decides "
-        "what its readings count. Rank: how many combinations the test determines alone, and with those above it; adds: "
-        "parameters that it determines with those above it, and they do not.",
+        note="RMSE: of its readings against the estimate from all tests; left out: against the "
+        "prediction from all other tests, what these do not determine fitted to it; scatter: about its own best fit, which "
+        "decides what its readings count. Rank: how many combinations the test determines alone, and with those above it; "
+        "adds: parameters that it determines with those above it, and they do not.",
     )
 
 
@@ -62,6 +63,7 @@ def named(names: tuple[str, ...], most: int = _MOST_NAMES) -> str:
 
 def _row(result: Identification, part: TestPart) -> tuple[str, ...]:
     test = result.campaign.tests[part.name]
+    found = result.tests_agreement
     unit, factor = ("µrad", _MICRO) if part.angular else ("µm", UM)
     return (
         part.name,
@@ -69,6 +71,7 @@ def _row(result: Identification, part: TestPart) -> tuple[str, ...]:
         str(part.runs),
         _forces(part.forces),
         f"{significant(part.rmse * factor)} {unit}",
+        "" if found is None else f"{significant(found.against[part.name].rmse * factor)} {unit}",
         "" if part.scatter is None else f"{significant(part.scatter * factor)} {unit}",
         str(part.rank),
         str(part.rank_so_far),
