@@ -77,8 +77,8 @@ STUDY = Study(
     "Five circles of 150 mm at 100, 300 and 500 N, one run each, 90 readings: XY, YZ, ZX, XY with A at 0.5 rad and C at "
     "0.7 rad, XY again, on a machine `wCAFYXZSt` whose rotary axes are stiff, with 0.1 um white and a centre that wanders "
     "by 0.2 um (*wandering centre*). Each test in turn is wrong; it alone has to be named. A fault that the question "
-    "explains cannot be seen: with the compliance of the rotary axes asked for, too much force in the tilted test alone looks "
-    "just like it.",
+    "explains cannot be seen: with the compliance of the rotary axes asked for, too much force in the tilted test alone "
+    "looks just like it.",
     tuple(every()),
     order=1,
 )
