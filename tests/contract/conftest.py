@@ -15,6 +15,7 @@ from elastogeo.observe import (
     BallBar,
     BallMotion,
     BallRoller,
+    Campaign,
     Circle,
     LoadedBallBar,
     MachineTest,
@@ -292,3 +293,10 @@ def typical(request: pytest.FixtureRequest) -> Case:
 def case_of() -> Callable[[str], Case]:
     """The ball bar's case in an arrangement, by its name."""
     return lambda name: next(c for c in CASES if c.instrument == "loaded-ball-bar" and str(c.arrangement) == name)
+
+
+@pytest.fixture(scope="session", params=ARRANGEMENTS, ids=str)
+def every_instrument(request: pytest.FixtureRequest) -> Campaign:
+    """A blank test of every instrument in one arrangement; without those that measure their force."""
+    names = [n for n in SETUPS if n != "ball-roller" and (n != "sphere-nest" or request.param.rotary_turn)]
+    return Campaign(str(request.param), {name: Case(name, request.param).test(readings=16) for name in names})

@@ -91,6 +91,8 @@ def answer(result: Identification) -> str:
         if found.rank == len(found.labels)
         else f"{found.rank} of {len(found.labels)} parameters are determined, or sums of them"
     )
+    if result.campaign.several:
+        determined += f": {len(result.together) or 'none'} of them only by the {len(result.tests)} tests together"
     cause = " and ".join(label(p) for p in top)
     lead = f"{cause} {'cause' if len(top) > 1 else 'causes'} {100 * share:.0f} % of the deviation; " if top else ""
     text = f"{lead}{determined}."
