@@ -56,6 +56,11 @@ consistency : null, or {state, why, constrained: {name: value}, distance, dimens
     p_negative: {name: p}, violated: [name], outward: {name: coefficient}, depth, needed, closest, shows: {name: value}},
     whether the compliances agree with physics; the sentence is that of the check `physically consistent`; `depth` is null
     where equations alone restrict
+collinear : null, or {commands, compliance, translational, rotational, screws}, the stiffness at the tool point that the
+    joint compliances amount to; what was not asked for counts as rigid. `compliance` is 6x6 [mm, rad per N, N mm], null if
+    it is not determined; `translational` [{direction, compliance_um_per_N}] and `rotational` [{direction,
+    compliance_urad_per_N_mm}] hold numbers {value, standard_uncertainty, interval95, degrees_of_freedom}; `screws` are
+    [{direction, point_mm, pitch_mm, along_N_per_um, about_N_mm_per_rad}], empty unless all of the compliance is determined
 repeats : null, or {levels: {level: runs}, combinations, mean, combination_std, estimate, standard_uncertainty,
     degrees_of_freedom, note}; from mean to degrees_of_freedom they are {name: number}; `estimate` is from all repeated
     runs together, `standard_uncertainty` is its own, from the scatter of the runs
@@ -86,6 +91,7 @@ from elastogeo.identification import (
     VariableCompliance,
 )
 from elastogeo.report.document import UM, document, in_um, tested, tested_together, verdict_entries
+from elastogeo.report.identification.collinear import collinear_json
 
 MICRO = 1e6
 
@@ -123,6 +129,7 @@ def identification_json(result: Identification) -> dict[str, Any]:
             "local_change": None if result.local_change is None else change_entry(result.local_change),
             "models": None if result.models is None else _models(result.models),
             "consistency": None if result.consistency is None else _consistency(result.consistency),
+            "collinear": collinear_json(result),
             "repeats": None if result.repeats is None else _repeats(result.repeats, result.reference_force),
             "set_up": [
                 {"run": run, **{f"{name}_um": value * UM for name, value in values.items()}}

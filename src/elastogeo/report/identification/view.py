@@ -8,6 +8,7 @@ from elastogeo.estimate import Repeatability
 from elastogeo.identification import CONDITION_LIMIT, Consistency, Identification, Level, ModelChoice, Parameter
 from elastogeo.report.head import campaign_head, files_section, origin
 from elastogeo.report.identification.budgets import budget_tables, degrees, uncertainty_table
+from elastogeo.report.identification.collinear import collinear_section
 from elastogeo.report.identification.document import identification_json
 from elastogeo.report.identification.force_dependence import force_section
 from elastogeo.report.identification.inseparable import inseparable_words
@@ -186,6 +187,7 @@ def _sections(result: Identification) -> Iterator[Section]:
         yield force_section(result)
     if result.consistency is not None:
         yield _physics(result, result.consistency)
+    yield from collinear_section(result)
     if result.repeats is not None:
         yield _repeats(result, result.repeats)
     yield _confounding(result)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from elastogeo.identification.static_tests import StaticResults
 from elastogeo.report.head import files_section, head, origin
+from elastogeo.report.identification.collinear import collinear_section
 from elastogeo.report.identification.pictures import picture
 from elastogeo.report.identification.view import parameter_table, stands_for
 from elastogeo.report.static_tests.document import static_json
@@ -49,6 +50,7 @@ def static_view(found: StaticResults) -> View:
         sections=(
             Section("What the instrument shows", tables=tables),
             Section("Joint parameters", pictures=(picture("contributions", joints),), tables=(parameters,)),
+            *collinear_section(joints),
             Section("Fit", pictures=(picture("residuals", joints),)),
             *files_section(test),
         ),
