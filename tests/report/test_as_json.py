@@ -44,6 +44,8 @@ KEYS = {
     "local_change",
     "models",
     "consistency",
+    "tests_agreement",
+    "collinear",
 }
 PARAMETER_KEYS = {
     "name",
