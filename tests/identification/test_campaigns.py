@@ -271,6 +271,11 @@ def test_the_rank_grows_with_every_test_through_the_command_line(planned, count)
     assert ran.exit_code == 0, ran.output
     document = json.loads(ran.output)
     assert (document["rank"], document["columns"]) == (RANKS[count - 1], 180)
+    if count > 1:
+        assert tuple(step["rank_so_far"] for step in document["steps"]) == RANKS[:count]
+        named = [name for step in document["steps"] for name in step["adds"]]
+        assert sorted(named) == sorted(entry["name"] for entry in document["retained"])
+        assert document["steps"][-1]["adds"]
 
 
 def test_a_campaign_file_is_the_same_as_its_tests(planned) -> None:

@@ -12,7 +12,7 @@ from elastogeo.identification.calibrations import (
     calibrate_setup,
 )
 from elastogeo.identification.campaigns.agreement import AgainstOthers, TestsAgreement
-from elastogeo.identification.campaigns.parts import TestPart
+from elastogeo.identification.campaigns.parts import Step, TestPart
 from elastogeo.identification.change import SIGNIFICANT, Change, difference, local_change, run_dispersion
 from elastogeo.identification.check import Check
 from elastogeo.identification.explanation import Explanation, explain
@@ -159,6 +159,7 @@ __all__ = [
     "StaticHysteresis",
     "StaticLine",
     "StaticResults",
+    "Step",
     "Stiffness",
     "StiffnessMap",
     "Symmetry",

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Unpack
 
 from elastogeo.estimate import Confounding
+from elastogeo.identification.campaigns.parts import Step, shares_of
 from elastogeo.identification.question import (
     Asked,
     confounding_of,
@@ -29,11 +30,14 @@ class Explanation(Result):
     confounding : Confounding
     reciprocity : Reciprocity or None
         What symmetric joints would buy; None if it was not asked for.
+    steps : tuple of Step
+        Of several tests, in order, what each adds to those before it; empty for one.
     """
 
     campaign: Campaign
     confounding: Confounding
     reciprocity: Reciprocity | None = None
+    steps: tuple[Step, ...] = ()
 
     @property
     def test(self) -> MachineTest:
@@ -66,4 +70,7 @@ def explain(one: Askable, **asked: Unpack[Asked]) -> Explanation:
     """
     campaign = with_question(campaign_of(one), **asked)
     bought = what_reciprocity_buys(campaign.only) if campaign.question.reciprocal and not campaign.several else None
-    return Explanation(campaign, confounding_of(campaign, systems_of(campaign)), bought)
+    systems = systems_of(campaign)
+    found = confounding_of(campaign, systems)
+    steps = shares_of(systems, found.retained).steps(systems.tests) if campaign.several else ()
+    return Explanation(campaign, found, bought, steps)

@@ -61,6 +61,26 @@ class TestPart:
 
 
 @dataclass(frozen=True, slots=True)
+class Step:
+    """What one test, planned or run, adds to those before it.
+
+    Attributes
+    ----------
+    name : str
+    rank, rank_so_far : int
+        How many combinations it determines alone, and with the tests before it.
+    alone, adds : tuple of str
+        Retained parameters, each for what it stands for, that it determines alone, and that only now are determined.
+    """
+
+    name: str
+    rank: int
+    rank_so_far: int
+    alone: tuple[str, ...]
+    adds: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Shares:
     """How the tests of a campaign share in what it tells.
 
@@ -91,6 +111,13 @@ class Shares:
     def named(self, known: Truth) -> tuple[str, ...]:
         """The parameters at which an array of truth values, shape (r,), is true."""
         return tuple(label for label, is_known in zip(self.labels, known, strict=True) if is_known)
+
+    def steps(self, tests: Sequence[str]) -> tuple[Step, ...]:
+        """What each test adds to those before it."""
+        return tuple(
+            Step(name, self.ranks[k], self.ranks_so_far[k], self.named(self.alone[k]), self.adds(k))
+            for k, name in enumerate(tests)
+        )
 
     def adds(self, k: int) -> tuple[str, ...]:
         """What test k determines with the tests before it and they do not."""

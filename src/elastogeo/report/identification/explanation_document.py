@@ -6,6 +6,8 @@ groups : all groups, single ones included
 retained : [{name, stands_for}]
 weakest : {name: coefficient}, the combination of the retained parameters, each scaled to a column of unit length, that
     the test sees least
+steps : [{id, rank, rank_so_far, alone, adds}], of several tests, in order: how many combinations each determines alone and
+    with those before it, which retained parameters alone, and which only now; empty for one test
 singular_values : of the scaled retained columns, greatest first
 tolerance : relative, of the decision
 """
@@ -34,5 +36,9 @@ def explanation_json(explained: Explanation) -> dict[str, Any]:
             "weakest": dict(zip(confounding.retained, confounding.weakest, strict=True)),
             "singular_values": confounding.singular_values,
             "tolerance": confounding.tolerance,
+            "steps": [
+                {"id": s.name, "rank": s.rank, "rank_so_far": s.rank_so_far, "alone": s.alone, "adds": s.adds}
+                for s in explained.steps
+            ],
         },
     )

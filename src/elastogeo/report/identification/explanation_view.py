@@ -7,6 +7,7 @@ from elastogeo.report.head import campaign_head
 from elastogeo.report.identification.explanation_document import explanation_json
 from elastogeo.report.identification.inseparable import inseparable_words
 from elastogeo.report.identification.reciprocity import reciprocity_words
+from elastogeo.report.identification.tests import step_table
 from elastogeo.report.identification.words import confounding_words
 from elastogeo.report.numbers import pretty
 from elastogeo.report.text import combination
@@ -23,6 +24,7 @@ def explanation_view(explained: Explanation) -> View:
     words = tuple(map(pretty, (*confounding_words(found), *inseparable_words(campaign.machine, found))))
     groups = tuple(f"Always together: {', '.join(group)}" for group in found.groups if len(group) > 1)
     bought = () if explained.reciprocity is None else (pretty(reciprocity_words(explained.reciprocity)),)
+    steps = (step_table(explained),) if explained.steps else ()
     these = "these tests determine" if campaign.several else "this test determines"
     answer = (
         f"All {asked} parameters are determined."
@@ -46,7 +48,7 @@ def explanation_view(explained: Explanation) -> View:
         checks=(),
         document=document,
         rows=document["retained"],
-        tables=(table,),
+        tables=(*steps, table),
         notes=(*words, *groups, *bought),
-        sections=(Section("What this test distinguishes", words, tables=(table,), points=(*groups, *bought)),),
+        sections=(Section("What this test distinguishes", words, tables=(*steps, table), points=(*groups, *bought)),),
     )

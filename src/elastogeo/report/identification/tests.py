@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from elastogeo.identification import Identification, TestPart
+from elastogeo.identification import Explanation, Identification, TestPart
 from elastogeo.report.numbers import pretty, significant
 from elastogeo.report.text import UM
 from elastogeo.report.view import Table
@@ -23,6 +23,18 @@ def test_table(result: Identification) -> Table:
         "prediction from all other tests, what these do not determine fitted to it; scatter: about its own best fit, which "
         "decides what its readings count. Rank: how many combinations the test determines alone, and with those above it; "
         "adds: parameters that it determines with those above it, and they do not.",
+    )
+
+
+def step_table(explained: Explanation) -> Table:
+    """What each test adds to those before it, planned or run."""
+    return Table(
+        ("test", "rank", "rank so far", "adds"),
+        tuple((s.name, str(s.rank), str(s.rank_so_far), pretty(", ".join(s.adds))) for s in explained.steps),
+        words=(0, 3),
+        title="Tests",
+        note="Rank: how many combinations the test determines alone, and with those above it; adds: parameters, each for "
+        "what it stands for below, that are determined from this test on.",
     )
 
 
