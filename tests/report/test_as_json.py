@@ -21,6 +21,7 @@ from elastogeo.report.machines.document import machine_json
 KEYS = {
     "tests",
     "together",
+    "tests_agreement",
     "schema",
     "software",
     "test",
