@@ -45,7 +45,6 @@ KEYS = {
     "local_change",
     "models",
     "consistency",
-    "tests_agreement",
     "collinear",
 }
 PARAMETER_KEYS = {
