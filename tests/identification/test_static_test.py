@@ -26,6 +26,7 @@ from elastogeo.observe import (
     StaticForce,
 )
 from elastogeo.report import sentence_of
+from elastogeo.report.static_tests.tables import static_tables
 from elastogeo.sources import simulate
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -200,6 +201,32 @@ def test_springs_of_the_drive_come_back(topology: str, sense: float) -> None:
     assert {part.name: part.compliance.value for part in drive.parts} == pytest.approx(expected, rel=5e-3)
     assert sum(part.share or 0.0 for part in drive.parts) == pytest.approx(1.0, rel=1e-6)
     assert "drive of X: springs in series" in {check.name for check in found.verdict}
+
+
+@pytest.mark.parametrize(("amperes", "held"), [(0.004, "motor holds it"), (0.0, "friction may hold the axis")])
+def test_the_current_says_whether_motor_or_friction_holds_the_axis(amperes: float, held: str) -> None:
+    """A servo of 100 N/um held by 4 A per kN; or by friction, and the current only scatters."""
+    random = np.random.default_rng(4)
+
+    def run(k: int) -> Run:
+        noise = 1e-3 * random.standard_normal((2, len(RAMP)))
+        return ramp(f"r{k}", k, position_x=1e-5 * RAMP + 1e-4 * noise[0], current_x=amperes * RAMP + noise[1])
+
+    found = evaluate_static(a_test([run(k) for k in range(6)]))
+    place = found.places[0]
+    assert place.drive is not None
+    assert place.drive.current is not None
+    low, high = place.drive.current.interval()
+    assert low < amperes < high
+    assert place.drive.parts[0].stiffness().value == pytest.approx(1e5, rel=0.01)
+    (table,) = [table for table in static_tables(found) if "Where axis X yields" in table.title]
+    assert held in table.note
+
+
+def test_currents_of_some_runs_only_are_refused() -> None:
+    runs = [ramp("a", 1, position_x=1e-5 * RAMP, current_x=RAMP), ramp("b", 2, position_x=1e-5 * RAMP)]
+    with pytest.raises(InputError, match="run 'b' lacks the column current_x that other runs of this place have"):
+        evaluate_static(a_test(runs))
 
 
 def test_a_loop_closed_on_the_scale_holds_the_transmission() -> None:

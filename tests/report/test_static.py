@@ -99,7 +99,8 @@ def test_the_drive_has_its_shares(pulled: StaticResults) -> None:
     table = titled(pulled, "Where axis X yields (position loop closed on the motor)")
     assert [row[0] for row in table.rows] == ["servo", "transmission", "guideway and structure", "whole"]
     assert float(table.rows[0][1].split(" ± ")[0]) == pytest.approx(10.0, rel=1e-6)
-    assert sum(float(row[2]) for row in table.rows[:3]) == pytest.approx(100.0, abs=0.2)
+    assert float(table.rows[0][2].split(" ± ")[0]) == pytest.approx(100.0, rel=1e-6)  # 1 / 10 nm/N
+    assert sum(float(row[3]) for row in table.rows[:3]) == pytest.approx(100.0, abs=0.2)
 
 
 @pytest.mark.parametrize("name", ["force", "rig", "probes", "frame"])

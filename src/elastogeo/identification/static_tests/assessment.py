@@ -251,10 +251,11 @@ def _drive(machine: Machine, direction: Array, members: Sequence[tuple[Run, Obse
         axis = frames.joints[joint.name].motion.rotation[0][:, joint.direction]
         if joint.is_rotary or abs(direction @ axis) <= ALONG:
             continue
-        columns = {part: f"{part}_{joint.name.lower()}" for part in ("command", "position", "scale")}
+        columns = {part: f"{part}_{joint.name.lower()}" for part in ("command", "position", "scale", "current")}
         with_any = [pair for pair in members if {columns["position"], columns["scale"]} & set(pair[0].columns)]
         if not with_any:
             continue
+        current = _of_all([run for run, _ in with_any], columns.pop("current"))
         there = {part: _positions([run for run, _ in with_any], name) for part, name in columns.items()}
         force = np.concatenate([seen.wrench[:, :3] @ axis for _, seen in with_any])
         reads = float(first.direction[0, :3] @ axis)
@@ -266,13 +267,14 @@ def _drive(machine: Machine, direction: Array, members: Sequence[tuple[Run, Obse
             motor=there["position"],
             scale=there["scale"],
             deflection=deflection if abs(reads) > ALONG else None,
+            current=current,
             run=[seen.run for _, seen in with_any for _ in range(len(seen))],
         )
         return where_in_the_drive(record, feedback)
     return None
 
 
-def _positions(runs: Sequence[Run], column: str) -> Array | None:
+def _of_all(runs: Sequence[Run], column: str) -> Array | None:
     """A column of all runs one after the other; None if no run has it."""
     without = [run.name for run in runs if column not in run.columns]
     if len(without) == len(runs):
@@ -281,14 +283,20 @@ def _positions(runs: Sequence[Run], column: str) -> Array | None:
         raise InputError(
             f"run {without[0]!r} lacks the column {column} that other runs of this place have; record it in all, or in none"
         )
-    for run in runs:
+    return np.concatenate([np.asarray(run.columns[column], dtype=float) for run in runs])
+
+
+def _positions(runs: Sequence[Run], column: str) -> Array | None:
+    """As `_of_all`, of positions at standstill."""
+    positions = _of_all(runs, column)
+    for run in runs if positions is not None else ():
         moved = float(np.ptp(run.columns[column]))
         if moved > MOST_MOTION:
             raise InputError(
                 f"run {run.name!r}: {column} moves by {moved:.4g} mm; a static test stands still: are they micrometres "
                 f"given as millimetres?"
             )
-    return np.concatenate([np.asarray(run.columns[column], dtype=float) for run in runs])
+    return positions
 
 
 def _cartesian(compliance: CartesianCompliance, zeroed: bool) -> Cartesian:

@@ -14,6 +14,9 @@ the command puts it. The force must vary slowly: inertia and the lag of a moving
 If the position loop is closed on the scale, the servo is what the scale still departs from the command, and the
 transmission is inside the loop: the motor turns further by as much as it yields, so that it does not move the tool. Its
 compliance is still seen between the encoders; it is stated, and does not count in the sum.
+
+Friction may hold an axis at rest in place of its motor. The motor's current tells: where it does not follow the force, what
+departs from the command is no stiffness of the servo.
 """
 
 from __future__ import annotations
@@ -67,6 +70,8 @@ class OnAxisRecord:
         Of the tool relative to the workpiece, from where the command puts it, along the axis.
     velocity : array, shape (m,) [mm/s], or None
         Of the axis; with it, what changes with the direction of motion (backlash, friction) is told from the compliance.
+    current : array, shape (m,) [A], or None
+        Of the motor.
     run : sequence of str, length m, or None
         Which run each reading is of.
     """
@@ -78,11 +83,12 @@ class OnAxisRecord:
     scale: Array | None = None
     deflection: Array | None = None
     velocity: Array | None = None
+    current: Array | None = None
     run: Sequence[str] | None = None
 
     def __post_init__(self) -> None:
         """Refuse channels that do not fit together."""
-        for name in ("force", "command", "motor", "scale", "deflection", "velocity"):
+        for name in ("force", "command", "motor", "scale", "deflection", "velocity", "current"):
             channel = getattr(self, name)
             if channel is None:
                 continue
@@ -127,6 +133,16 @@ class OnAxisPart:
         """Its names in words."""
         return " with ".join(self.names)
 
+    def stiffness(self) -> Estimate:
+        """Inverse of the compliance [N/mm]: of the servo, its stiffness at standstill.
+
+        Raises
+        ------
+        UnsupportedError
+            If the compliance may as well be zero: its inverse is then unbounded, as where integral action holds the axis.
+        """
+        return self.compliance.inverse()
+
 
 @dataclass(frozen=True, slots=True)
 class OnAxis:
@@ -143,6 +159,8 @@ class OnAxis:
     limits : tuple of str
         What cannot be said, and why, in sentences.
     verdict : tuple of Check
+    current : Estimate or None [A/N]
+        Of the motor per force; None if it was not logged.
     """
 
     axis: str
@@ -151,6 +169,7 @@ class OnAxis:
     whole: Estimate | None
     limits: tuple[str, ...]
     verdict: tuple[Check, ...]
+    current: Estimate | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,6 +231,7 @@ def where_in_the_drive(record: OnAxisRecord, feedback: str = "motor", whole: Est
         whole=total,
         limits=tuple(limits + _limits(record, feedback, parts, total)),
         verdict=(_by_run(counted), _springs(parts), _apart(parts)),
+        current=None if record.current is None else _fitted(lines, _channel(record, "current"))[0].estimate("compliance"),
     )
 
 

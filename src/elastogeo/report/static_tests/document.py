@@ -18,10 +18,12 @@ places : [{commands, direction, along, runs, line, refusal, drive, drive_refusal
         refusal : why there is no hysteresis; all the rest is then null
     line : {compliance [um/N], offset [um], residual_std_um, greatest_departure_um, runs, by_run, needed}, or null for the
         reason `refusal`
-    drive : {axis, feedback, parts, whole, limits}, or null (for the reason `drive_refusal`, if positions were recorded)
+    drive : {axis, feedback, parts, whole, limits, current}, or null (for the reason `drive_refusal`, if positions were
+        recorded)
         parts : [{names, compliance [um/N], acts, share}]; more than one name where parts are not told apart
         whole : number [um/N], or null
         limits : what cannot be said, in sentences
+        current : number [A/N] of the motor per force, or null; the interval holds zero where friction holds the axis
 cartesian : {compliance, undetermined, zeroed, zeros, runs, by_run, needed, residual_std_um, stiffness, symmetry, principal,
     refusal} of displacement probes, or null
     compliance : {value_um_per_N, standard_uncertainty_um_per_N, interval95_um_per_N}, matrices in the foundation; row:
@@ -165,6 +167,7 @@ def _drive(found: OnAxis) -> dict[str, Any]:
         ],
         "whole": _number(found.whole, UM),
         "limits": found.limits,
+        "current": _number(found.current, 1.0),
     }
 
 

@@ -16,6 +16,7 @@ from elastogeo.identification.static_tests import (
     LoadedPlace,
     LoadedRun,
     OnAxis,
+    OnAxisPart,
     Principal,
     StaticLine,
     StaticResults,
@@ -36,6 +37,7 @@ UM = 1000.0
 _MICRO = 1e6
 """Nanometres in a millimetre, and microradians in a radian."""
 _NANO = 1e9
+_PER_KN = 1000.0
 _AXES = "XYZ"
 KEY_VALUES = 5
 _CYCLES = "u: standard uncertainty by the scatter of the run's own cycles; another run may differ by more."
@@ -138,15 +140,33 @@ def _drive(found: OnAxis) -> Table:
         (
             part.name,
             _said_half(part.compliance.value, part.compliance.interval(), _MICRO),
+            _stiffness(part),
             "" if part.share is None else f"{100 * part.share:.1f}",
             "" if part.acts else "inside the position loop: not counted",
         )
         for part in found.parts
     ]
     if found.whole is not None:
-        rows.append(("whole", _said_half(found.whole.value, found.whole.interval(), _MICRO), "100.0", ""))
+        whole = OnAxisPart(("whole",), found.whole, True, None, None)
+        rows.append(("whole", _said_half(found.whole.value, found.whole.interval(), _MICRO), _stiffness(whole), "100.0", ""))
     title = f"Where axis {found.axis} yields (position loop closed on the {found.feedback})"
-    return Table(("part", "compliance [nm/N]", "share [%]", ""), tuple(rows), (0, 3), title, " ".join(found.limits))
+    headings = ("part", "compliance [nm/N]", "stiffness [N/µm]", "share [%]", "")
+    return Table(headings, tuple(rows), (0, 4), title, " ".join((*found.limits, *_held(found))))
+
+
+def _held(found: OnAxis) -> Iterator[str]:
+    """Whether the motor holds the load, as its current says; nothing where that was not logged or has no uncertainty."""
+    if found.current is None or not found.current.known:
+        return
+    low, high = found.current.interval()
+    slope = f"The current of {found.axis} follows the force by {_said(found.current, _PER_KN)} A/kN"
+    if low <= 0 <= high:
+        yield (
+            f"{slope}, which may be nothing: friction may hold the axis, and what departs from the command is then not the "
+            f"stiffness of its servo."
+        )
+    else:
+        yield f"{slope}: the motor holds it."
 
 
 def _cartesian(found: Cartesian) -> Iterator[Table]:
@@ -331,7 +351,7 @@ def _said_half(value: float, interval: Sequence[float], scale: float) -> str:
     return value_with_uncertainty(value * scale, (interval[1] - interval[0]) / 2 * scale)
 
 
-def _stiffness(soft: StaticLine | Principal) -> str:
+def _stiffness(soft: StaticLine | Principal | OnAxisPart) -> str:
     """Stiffness in N/µm, with its uncertainty; unknown where the compliance may as well be zero."""
     try:
         return _said(soft.stiffness(), 1 / UM)
