@@ -93,9 +93,9 @@ def test_statistic_and_prediction_of_the_others_by_dense_least_squares() -> None
     (joint, r), (own, a), (rest, b) = left(every), left(["xy"]), left(others)
     q = a + b - r
     run = systems.runs[0]
-    scatter = (found.scatter * systems.scatter[run.test]) ** 2 * run.precision
+    reading = systems.scatter[run.test] ** 2 * run.precision
     assert found.against["xy"].directions == q
-    assert found.against["xy"].statistic == pytest.approx((joint - own - rest) / q / scatter, rel=1e-4)
+    assert found.against["xy"].square == pytest.approx((joint - own - rest) / reading, rel=1e-6)
     A, y = rows(others)
     values = np.linalg.lstsq(A / np.linalg.norm(A, axis=0), y, rcond=1e-9)[0] / np.linalg.norm(A, axis=0)
     own_design, own_reading = rows(["xy"])

@@ -3,7 +3,9 @@
 What a test says and what all others say are two estimates. Where both determine a combination of the parameters they can
 differ, and the sum of squares that the joint fit leaves over beyond that of the two fits is the square of the difference in
 its own covariance (Chow, doi:10.2307/1910133). It is held against what runs scatter within tests, so that a test that
-contradicts the others is not thought to be noise, and against the stated influences that the tests do not share.
+contradicts the others is not thought to be noise, and against the stated influences that the tests do not share. Runs do not
+scatter alike in all directions: the sum of squares is compared with the trace of its covariance by run, and has as many
+degrees of freedom as that covariance has (Box, doi:10.1214/aoms/1177728786).
 
 A test that is wrong makes others disagree too. So the one is named whose removal makes the rest agree, not every test that
 disagrees because of it.
@@ -13,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import nan
 from typing import TypeVar
 
 import numpy as np
@@ -32,6 +35,12 @@ LEVEL = 0.05
 _KNOWN = 1e9
 """Degrees of freedom of what is known: the F-distribution wants a number."""
 
+_ALONE = 1e-6
+"""Share of its variance that the fit leaves of a run in a direction, up to which the run alone determines it."""
+
+_FLOOR = 1e-9
+"""Share of the pooled variance that is added in every direction, so that no covariance is zero."""
+
 _ROUNDING = 1e-12
 """Share of the readings that is their rounding error at most: less scatter than that is none."""
 
@@ -44,9 +53,14 @@ class AgainstOthers:
     ----------
     directions : int
         How many combinations of the parameters it determines that the others determine too.
+    square : float
+        Sum of squares that a fit of all leaves over beyond those of the test and of the others by themselves, over the
+        variance of a reading.
     statistic : float or None
-        Mean square of the differences in these, in their variance: F-distributed with `directions` and
+        Square of the differences over the trace of its covariance: F-distributed with `effective_directions` and
         `degrees_of_freedom` if the tests agree. None where they share nothing, or no runs show how runs scatter.
+    effective_directions : float
+        As many as `directions` if runs scatter alike in all of them, else fewer.
     degrees_of_freedom : float
         Of the variance: of the scatter of runs, more where influences that are known add to it.
     p_value : float or None
@@ -59,7 +73,9 @@ class AgainstOthers:
     """
 
     directions: int
+    square: float
     statistic: float | None
+    effective_directions: float
     degrees_of_freedom: float
     p_value: float | None
     rmse: float
@@ -104,31 +120,50 @@ class TestsAgreement:
 class _Seen:
     """What some runs see: as many independent numbers of unit variance as their columns have rank.
 
-    `design` (k, r), `seen` (k,) and `moved` (effects, k): what one standard uncertainty of each effect adds to them.
+    `design` (k, r), `seen` (k,) and `moved` (effects, k): what one standard uncertainty of each effect adds to them. `basis`
+    (n, k): how they come from the n numbers that all runs see, each by itself.
     """
 
     design: Array
     seen: Array
     moved: Array
+    basis: Array
 
 
-_Part = tuple[float, str, _Seen]
-"""Of a test: level, name and what is seen of one run."""
+@dataclass(frozen=True, slots=True)
+class _Run:
+    """What one run sees, and which of the numbers of all runs these are."""
 
-_Tests = Mapping[str, Sequence[_Part]]
+    level: float
+    name: str
+    seen: _Seen
+    rows: slice
+
+
+_Tests = Mapping[str, Sequence[_Run]]
+
+
+@dataclass(frozen=True, slots=True)
+class _Residual:
+    """What the fit of its own test leaves of a run.
+
+    `seen` (k,) has unit variance in what is `free` (k, k), in which other runs of the test judge it, and comes from what the
+    test sees by `maker` (k, m) if readings are independent.
+    """
+
+    rows: slice
+    seen: Array
+    free: Array
+    maker: Array
 
 
 @dataclass(frozen=True, slots=True)
 class _Scatter:
-    """Sum of squares of what runs see about the fit of their own test, over the variance of readings; its freedom."""
+    """How the runs of a test scatter about its fit: sum of squares, its freedom, and each run."""
 
     square: float
     freedom: int
-    least: float = 0.0
-
-    @property
-    def variance(self) -> float:
-        return max(self.square / self.freedom, self.least) if self.freedom else np.nan
+    runs: tuple[_Residual, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +171,9 @@ class _Compared:
     """Two parts against one another, as in `AgainstOthers`; the p-value is not adjusted."""
 
     directions: int
+    square: float
     statistic: float | None
+    effective_directions: float
     degrees_of_freedom: float
     p_value: float
 
@@ -169,17 +206,25 @@ def tests_agreement(systems: Systems, solution: Solution, effects: Sequence[Effe
     """
     if len(systems.tests) < 2:
         return None
-    seen = _seen_by_run(systems, solution, effects)
-    pairs = list(zip(systems.runs, seen, strict=True))
-    tests = {name: [(run.force, run.name, one) for run, one in pairs if run.test == name] for name in systems.tests}
-    looks, scatter = _looks(tests), _scatter(tests)
+    tests = _seen_by_run(systems, solution, effects)
+    looks, scatter = _looks(tests), [_own_scatter(runs) for runs in tests.values()]
+    freedom, reading = sum(one.freedom for one in scatter), _reading(systems)
     named, rest_agrees = _named(tests, looks.disagreeing) if looks.disagreeing else ((), True)
     level, run = _wrong_part(tests, named[0]) if len(named) == 1 and rest_agrees else (None, "")
     against = {}
     for name, one in looks.tests.items():
         rmse, fitted = _left_out(name, systems, solution)
         p_value = None if one.statistic is None else looks.p_values[name]
-        against[name] = AgainstOthers(one.directions, one.statistic, one.degrees_of_freedom, p_value, rmse, fitted)
+        against[name] = AgainstOthers(
+            directions=one.directions,
+            square=one.square / reading**2,
+            statistic=one.statistic,
+            effective_directions=one.effective_directions,
+            degrees_of_freedom=one.degrees_of_freedom,
+            p_value=p_value,
+            rmse=rmse,
+            fitted=fitted,
+        )
     return TestsAgreement(
         against=against,
         disagreeing=looks.disagreeing,
@@ -187,8 +232,8 @@ def tests_agreement(systems: Systems, solution: Solution, effects: Sequence[Effe
         rest_agrees=rest_agrees,
         level=level,
         run=run,
-        scatter=float(np.sqrt(scatter.variance)) / _reading(systems),
-        scatter_freedom=scatter.freedom,
+        scatter=float(np.sqrt(sum(one.square for one in scatter) / freedom)) / reading if freedom else nan,
+        scatter_freedom=freedom,
     )
 
 
@@ -214,16 +259,25 @@ def _reading(systems: Systems) -> float:
     return float(systems.scatter[run.test] * np.sqrt(run.precision))
 
 
-def _seen_by_run(systems: Systems, solution: Solution, effects: Sequence[Effect]) -> list[_Seen]:
+def _seen_by_run(systems: Systems, solution: Solution, effects: Sequence[Effect]) -> dict[str, list[_Run]]:
+    """What every run sees, by test."""
     factors = [select(run.factor, solution.labels) for run in systems.runs]
     norms = np.linalg.norm([factor.column_norms for factor in factors], axis=0)
     moved = moments_moved(systems, solution, effects)
-    found = []
-    for k, factor in enumerate(factors):
-        U, sizes, Vt = np.linalg.svd(factor.R / norms)
-        rank = _rank(sizes)
-        design = sizes[:rank, np.newaxis] * Vt[:rank]
-        found.append(_Seen(design, U[:, :rank].T @ factor.z, moved[:, k] @ Vt[:rank].T / sizes[:rank]))
+    parts = [np.linalg.svd(factor.R / norms) for factor in factors]
+    ranks = [_rank(sizes) for _, sizes, _ in parts]
+    every, first = np.eye(sum(ranks)), 0
+    found: dict[str, list[_Run]] = {name: [] for name in systems.tests}
+    for k, (run, factor, (U, sizes, Vt), rank) in enumerate(zip(systems.runs, factors, parts, ranks, strict=True)):
+        rows = slice(first, first + rank)
+        seen = _Seen(
+            sizes[:rank, np.newaxis] * Vt[:rank],
+            U[:, :rank].T @ factor.z,
+            moved[:, k] @ Vt[:rank].T / sizes[:rank],
+            every[:, rows],
+        )
+        found[run.test].append(_Run(run.force, run.name, seen, rows))
+        first += rank
     return found
 
 
@@ -232,8 +286,8 @@ def _joined(parts: Sequence[_Seen]) -> _Seen:
     every = _stacked(parts)
     U, sizes, Vt = np.linalg.svd(every.design, full_matrices=False)
     rank = _rank(sizes)
-    basis = U[:, :rank]
-    return _Seen(sizes[:rank, np.newaxis] * Vt[:rank], basis.T @ every.seen, every.moved @ basis)
+    own = U[:, :rank]
+    return _Seen(sizes[:rank, np.newaxis] * Vt[:rank], own.T @ every.seen, every.moved @ own, every.basis @ own)
 
 
 def _stacked(parts: Sequence[_Seen]) -> _Seen:
@@ -241,72 +295,102 @@ def _stacked(parts: Sequence[_Seen]) -> _Seen:
         np.vstack([part.design for part in parts]),
         np.concatenate([part.seen for part in parts]),
         np.concatenate([part.moved for part in parts], axis=1),
+        np.concatenate([part.basis for part in parts], axis=1),
     )
 
 
-def _contradictions(parts: Sequence[_Seen]) -> tuple[Array, Array]:
-    """What the parts say against one another, shape (q,), of unit variance; and what the effects add, (effects, q)."""
+def _contradictions(parts: Sequence[_Seen]) -> tuple[Array, Array, Array]:
+    """What the parts say against one another, shape (q,), of unit variance; what the effects add; how it comes from all."""
     every = _stacked(parts)
     U, sizes, _ = np.linalg.svd(every.design)
     beyond = U[:, _rank(sizes) :]
-    return beyond.T @ every.seen, every.moved @ beyond
+    return beyond.T @ every.seen, every.moved @ beyond, every.basis @ beyond
 
 
 def _rank(sizes: Array) -> int:
     return int(np.sum(sizes > RANK_TOLERANCE * sizes.max(initial=0.0)))
 
 
-def _scatter(tests: _Tests) -> _Scatter:
-    """How runs scatter about the fit of their own test, over all tests."""
-    every = [_own_scatter(parts) for parts in tests.values()]
-    return _Scatter(sum(one.square for one in every), sum(one.freedom for one in every), _rounding(tests))
+def _own_scatter(runs: Sequence[_Run]) -> _Scatter:
+    """How the runs of a test scatter about its fit: what is left of each, adjusted for its part in the fit (CR2)."""
+    every = _stacked([run.seen for run in runs])
+    U, sizes, _ = np.linalg.svd(every.design, full_matrices=False)
+    fit = U[:, : _rank(sizes)]
+    maker = np.eye(len(fit)) - fit @ fit.T
+    left, first, found = maker @ every.seen, 0, []
+    for run in runs:
+        own = slice(first, first + len(run.seen.seen))
+        values, vectors = np.linalg.eigh(maker[own, own])
+        free = vectors[:, values > _ALONE]
+        adjusted = free / np.sqrt(values[values > _ALONE]) @ free.T
+        found.append(_Residual(run.rows, adjusted @ left[own], free @ free.T, adjusted @ maker[own]))
+        first = own.stop
+    return _Scatter(float(left @ left), len(fit) - fit.shape[1], tuple(found))
 
 
-def _own_scatter(parts: Sequence[_Part]) -> _Scatter:
-    apart = _contradictions([seen for _, _, seen in parts])[0] if parts else np.zeros(0)
-    return _Scatter(float(apart @ apart), len(apart))
-
-
-def _rounding(tests: _Tests) -> float:
-    every = [seen.seen for parts in tests.values() for _, _, seen in parts]
-    return (_ROUNDING * float(np.linalg.norm(np.concatenate(every)))) ** 2
-
-
-def _compared(parts: Sequence[_Seen], scatter: _Scatter) -> _Compared:
-    """Whether parts agree, by F with the scatter of runs and the effects in the variance.
+def _compared(parts: Sequence[_Seen], scatter: Sequence[_Scatter]) -> _Compared:
+    """Whether parts agree, by the scatter of runs, as it is in each direction, and the effects in the variance.
 
     Effects are known and scatter is estimated, so that the variance has the more degrees of freedom the more of it effects
     make (Satterthwaite).
     """
-    apart, moved = _contradictions(parts)
-    q = len(apart)
-    if not q or not scatter.freedom:
-        return _Compared(q, None, 0.0, 1.0)
-    variance, directions = np.linalg.eigh(moved.T @ moved)
-    total = np.maximum(variance, 0.0) + scatter.variance
-    statistic = float(np.mean((directions.T @ apart) ** 2 / total))
-    share = float(np.mean(scatter.variance / total))
-    freedom = min(scatter.freedom / share**2, _KNOWN)
-    return _Compared(q, statistic, freedom, float(fdtrc(q, freedom, statistic)))
+    apart, moved, weights = _contradictions(parts)
+    q, square, freedom = len(apart), float(apart @ apart), sum(one.freedom for one in scatter)
+    if not q or not freedom:
+        return _Compared(q, square, None, 0.0, 0.0, 1.0)
+    least = (_ROUNDING * float(np.linalg.norm(np.concatenate([part.seen for part in parts])))) ** 2
+    pooled = max(sum(one.square for one in scatter) / freedom, least)
+    values, vectors = np.linalg.eigh(moved.T @ moved)
+    white = vectors / np.sqrt(np.maximum(values, 0.0) + pooled)
+    by_run, degrees = _covariance(weights @ white, scatter, pooled)
+    covariance = by_run + (moved @ white).T @ (moved @ white)
+    total = float(np.trace(covariance))
+    statistic = float(np.sum((apart @ white) ** 2)) / total
+    directions = total**2 / float(np.sum(covariance**2))
+    degrees = min(degrees * (total / float(np.trace(by_run))) ** 2, _KNOWN)
+    return _Compared(q, square, statistic, directions, degrees, float(fdtrc(directions, degrees, statistic)))
+
+
+def _covariance(weights: Array, scatter: Sequence[_Scatter], pooled: float) -> tuple[Array, float]:
+    """Covariance of differences with these weights, shape (n, q), by run; and the degrees of freedom of its trace.
+
+    A direction in which no other run of its test judges a run has the pooled variance, or that of what is judged if this is
+    greater: runs may scatter more in just the traces that count here.
+    """
+    size = weights.shape[1]
+    covariance, unjudged, trace, square = np.zeros((size, size)), weights.T @ weights, 0.0, 0.0
+    for one in scatter:
+        gram = np.zeros((0, 0))
+        for run in one.runs:
+            own = weights[run.rows]
+            off = own.T @ run.seen
+            covariance += np.outer(off, off)
+            unjudged -= own.T @ run.free @ own
+            made = own.T @ run.maker
+            gram = made.T @ made + (gram if gram.size else 0.0)
+        trace += float(np.trace(gram))
+        square += float(np.sum(gram**2))
+    left, freedom = max(float(np.trace(unjudged)), 0.0), sum(one.freedom for one in scatter)
+    degrees = (trace + left) ** 2 / (square + left**2 / freedom)
+    more = max(1.0, float(np.trace(covariance)) / (pooled * trace)) if trace > 0 else 1.0
+    return covariance + more * pooled * unjudged + _FLOOR * pooled * np.eye(size), degrees
 
 
 def _looks(tests: _Tests) -> _Looks:
     """Every test against the others, and every level of a test of several against all else."""
-    whole = {name: _joined([seen for _, _, seen in parts]) for name, parts in tests.items()}
-    scatter = {name: _own_scatter(parts) for name, parts in tests.items()}
-    square, freedom = sum(one.square for one in scatter.values()), sum(one.freedom for one in scatter.values())
-    least, by_test, by_level = _rounding(tests), {}, {}
-    for name, parts in tests.items():
+    whole = {name: _joined([run.seen for run in runs]) for name, runs in tests.items()}
+    scatter = {name: _own_scatter(runs) for name, runs in tests.items()}
+    by_test, by_level = {}, {}
+    for name, runs in tests.items():
         others = [one for other, one in whole.items() if other != name]
         rest = [_joined(others)] if others else []
-        by_test[name] = _compared([whole[name], *rest], _Scatter(square, freedom, least))
-        levels = sorted({force for force, _, _ in parts})
+        by_test[name] = _compared([whole[name], *rest], list(scatter.values()))
+        levels = sorted({run.level for run in runs})
         for level in levels if len(levels) > 1 else ():
-            kept = [part for part in parts if part[0] != level]
-            left, own = _own_scatter(kept), scatter[name]
-            about = _Scatter(square - own.square + left.square, freedom - own.freedom + left.freedom, least)
-            alone = [seen for force, _, seen in parts if force == level]
-            by_level[name, level] = _compared([_joined(alone), _joined([*rest, *(s for _, _, s in kept)])], about)
+            kept = [run for run in runs if run.level != level]
+            alone = [run.seen for run in runs if run.level == level]
+            about = [_own_scatter(kept), *(one for other, one in scatter.items() if other != name)]
+            by_level[name, level] = _compared([_joined(alone), _joined([*rest, *(run.seen for run in kept)])], about)
     looks = 2 if by_level else 1
     tested, leveled = _holm(by_test), _holm(by_level)
     p_values = {
@@ -328,8 +412,8 @@ def _holm(found: Mapping[_Key, _Compared]) -> dict[_Key, float]:
     return adjusted
 
 
-def _without(tests: _Tests, name: str) -> dict[str, Sequence[_Part]]:
-    return {other: parts for other, parts in tests.items() if other != name}
+def _without(tests: _Tests, name: str) -> dict[str, Sequence[_Run]]:
+    return {other: runs for other, runs in tests.items() if other != name}
 
 
 def _named(tests: _Tests, disagreeing: Sequence[str]) -> tuple[tuple[str, ...], bool]:
@@ -342,7 +426,7 @@ def _named(tests: _Tests, disagreeing: Sequence[str]) -> tuple[tuple[str, ...], 
 
 def _disagreement(tests: _Tests) -> float:
     """What all runs say against one another, as a sum of squares."""
-    apart, _ = _contradictions([seen for parts in tests.values() for _, _, seen in parts])
+    apart, *_ = _contradictions([run.seen for runs in tests.values() for run in runs])
     return float(apart @ apart)
 
 
@@ -350,17 +434,17 @@ def _wrong_part(tests: _Tests, name: str) -> tuple[float | None, str]:
     """The one level, and the one run, without which a test agrees with all others; None and empty if there is none."""
     own = tests[name]
 
-    def agree_with(kept: Sequence[_Part]) -> bool:
+    def agree_with(kept: Sequence[_Run]) -> bool:
         looks = _looks({**tests, name: kept})
         return bool(looks.tests[name].directions) and not looks.disagreeing
 
-    levels, runs = sorted({force for force, _, _ in own}), [run for _, run, _ in own]
+    levels, runs = sorted({run.level for run in own}), [run.name for run in own]
     if len(runs) < 2:
         return None, ""
-    wrong = [run for run in runs if agree_with([part for part in own if part[1] != run])]
+    wrong = [name for name in runs if agree_with([run for run in own if run.name != name])]
     if len(levels) < 2:
         return None, wrong[0] if len(wrong) == 1 else ""
-    off = [level for level in levels if agree_with([part for part in own if part[0] != level])]
+    off = [level for level in levels if agree_with([run for run in own if run.level != level])]
     return (off[0] if len(off) == 1 else None), (wrong[0] if len(wrong) == 1 else "")
 
 

@@ -9,7 +9,8 @@ tests : [{name, ..., id, readings, forces_N, rmse_um, scatter_um, rank, alone, r
     it determines with those before it, and which parameters only then; `information` is {parameter: share}, 1 less the
     variance with all tests over that without this one, 1 where only this test determines the parameter; `left_out_um` is the
     RMSE of its readings against the prediction from all other tests, after as many combinations as `left_out_fitted`, which
-    the others do not determine, are fitted to it; `against_others` is {directions, statistic, degrees_of_freedom, p_value},
+    the others do not determine, are fitted to it; `against_others` is {directions, square, statistic, effective_directions,
+    degrees_of_freedom, p_value},
     of the differences in what it and the others determine: `p_value` is adjusted for the number of tests and levels. Null of
     one test, `statistic` and `p_value` also where nothing is shared
 tests_agreement : {disagreeing, named, rest_agrees, level_N, run, scatter, degrees_of_freedom}, null of one test: the tests
@@ -167,7 +168,9 @@ def _test(result: Identification, part: TestPart) -> dict[str, Any]:
 def _against(one: AgainstOthers) -> dict[str, Any]:
     return {
         "directions": one.directions,
+        "square": one.square,
         "statistic": one.statistic,
+        "effective_directions": one.effective_directions,
         "degrees_of_freedom": one.degrees_of_freedom,
         "p_value": one.p_value,
     }
