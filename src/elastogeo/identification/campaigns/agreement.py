@@ -35,6 +35,9 @@ LEVEL = 0.05
 _KNOWN = 1e9
 """Degrees of freedom of what is known: the F-distribution wants a number."""
 
+_CANDIDATES = 3
+"""How many tests are held against what is without them: each takes as long as the first look."""
+
 _ALONE = 1e-6
 """Share of its variance that the fit leaves of a run in a direction, up to which the run alone determines it."""
 
@@ -144,26 +147,21 @@ _Tests = Mapping[str, Sequence[_Run]]
 
 
 @dataclass(frozen=True, slots=True)
-class _Residual:
-    """What the fit of its own test leaves of a run.
-
-    `seen` (k,) has unit variance in what is `free` (k, k), in which other runs of the test judge it, and comes from what the
-    test sees by `maker` (k, m) if readings are independent.
-    """
-
-    rows: slice
-    seen: Array
-    free: Array
-    maker: Array
-
-
-@dataclass(frozen=True, slots=True)
 class _Scatter:
-    """How the runs of a test scatter about its fit: sum of squares, its freedom, and each run."""
+    """How the runs of a test scatter about its fit: sum of squares, its freedom, and what is left of each run.
+
+    `seen` (m, runs) has for each run, in its own `rows` of all, what is left of it, of unit variance in what is `free`
+    (m, m), in which other runs of the test judge it. It comes from what the test sees by `maker` (m, m). `same` (m, m) is 1
+    where two rows are of one run.
+    """
 
     square: float
     freedom: int
-    runs: tuple[_Residual, ...]
+    rows: np.ndarray[tuple[int], np.dtype[np.int_]]
+    seen: Array
+    free: Array
+    maker: Array
+    same: Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -317,15 +315,19 @@ def _own_scatter(runs: Sequence[_Run]) -> _Scatter:
     U, sizes, _ = np.linalg.svd(every.design, full_matrices=False)
     fit = U[:, : _rank(sizes)]
     maker = np.eye(len(fit)) - fit @ fit.T
-    left, first, found = maker @ every.seen, 0, []
-    for run in runs:
+    left, first, size = maker @ every.seen, 0, len(fit)
+    seen, free, same = np.zeros((size, len(runs))), np.zeros((size, size)), np.zeros((size, size))
+    adjust = np.zeros((size, size))
+    for k, run in enumerate(runs):
         own = slice(first, first + len(run.seen.seen))
         values, vectors = np.linalg.eigh(maker[own, own])
-        free = vectors[:, values > _ALONE]
-        adjusted = free / np.sqrt(values[values > _ALONE]) @ free.T
-        found.append(_Residual(run.rows, adjusted @ left[own], free @ free.T, adjusted @ maker[own]))
+        judged = vectors[:, values > _ALONE]
+        adjust[own, own] = judged / np.sqrt(values[values > _ALONE]) @ judged.T
+        seen[own, k] = adjust[own, own] @ left[own]
+        free[own, own], same[own, own] = judged @ judged.T, 1.0
         first = own.stop
-    return _Scatter(float(left @ left), len(fit) - fit.shape[1], tuple(found))
+    rows = np.concatenate([np.arange(run.rows.start, run.rows.stop) for run in runs])
+    return _Scatter(float(left @ left), size - fit.shape[1], rows, seen, free, adjust @ maker, same)
 
 
 def _compared(parts: Sequence[_Seen], scatter: Sequence[_Scatter]) -> _Compared:
@@ -360,14 +362,11 @@ def _covariance(weights: Array, scatter: Sequence[_Scatter], pooled: float) -> t
     size = weights.shape[1]
     covariance, unjudged, trace, square = np.zeros((size, size)), weights.T @ weights, 0.0, 0.0
     for one in scatter:
-        gram = np.zeros((0, 0))
-        for run in one.runs:
-            own = weights[run.rows]
-            off = own.T @ run.seen
-            covariance += np.outer(off, off)
-            unjudged -= own.T @ run.free @ own
-            made = own.T @ run.maker
-            gram = made.T @ made + (gram if gram.size else 0.0)
+        own = weights[one.rows]
+        off = own.T @ one.seen
+        covariance += off @ off.T
+        unjudged -= own.T @ one.free @ own
+        gram = one.maker.T @ (own @ own.T * one.same) @ one.maker
         trace += float(np.trace(gram))
         square += float(np.sum(gram**2))
     left, freedom = max(float(np.trace(unjudged)), 0.0), sum(one.freedom for one in scatter)
@@ -417,24 +416,30 @@ def _without(tests: _Tests, name: str) -> dict[str, Sequence[_Run]]:
 
 
 def _named(tests: _Tests, disagreeing: Sequence[str]) -> tuple[tuple[str, ...], bool]:
-    """The tests without which the others agree; if there is none, the one that takes most of the disagreement with it."""
-    found = tuple(name for name in disagreeing if not _looks(_without(tests, name)).disagreeing)
-    if found:
-        return found, True
-    return (min(disagreeing, key=lambda name: _disagreement(_without(tests, name))),), False
+    """The tests without which the others agree; if there is none, the one that takes most of the disagreement with it.
 
+    Looked for among the few that take most of it.
+    """
+    whole = {name: _joined([run.seen for run in runs]) for name, runs in tests.items()}
 
-def _disagreement(tests: _Tests) -> float:
-    """What all runs say against one another, as a sum of squares."""
-    apart, *_ = _contradictions([run.seen for runs in tests.values() for run in runs])
-    return float(apart @ apart)
+    def left(name: str) -> float:
+        apart, *_ = _contradictions([one for other, one in whole.items() if other != name])
+        return float(apart @ apart)
+
+    most = sorted(disagreeing, key=left)[:_CANDIDATES]
+    found = tuple(name for name in most if not _looks(_without(tests, name)).disagreeing)
+    return (found, True) if found else (tuple(most[:1]), False)
 
 
 def _wrong_part(tests: _Tests, name: str) -> tuple[float | None, str]:
     """The one level, and the one run, without which a test agrees with all others; None and empty if there is none."""
-    own = tests[name]
+    own, rest = tests[name], _joined([run.seen for runs in _without(tests, name).values() for run in runs])
+    others = [_own_scatter(runs) for runs in _without(tests, name).values()]
 
     def agree_with(kept: Sequence[_Run]) -> bool:
+        about = [_own_scatter(kept), *others]
+        if 2 * len(tests) * _compared([_joined([run.seen for run in kept]), rest], about).p_value < LEVEL:
+            return False  # what all looks would say too, and they take long
         looks = _looks({**tests, name: kept})
         return bool(looks.tests[name].directions) and not looks.disagreeing
 
