@@ -2,8 +2,8 @@
 
 Every model that is not refuted is named with it; those that hold another of them are not. A model that is true is refuted in
 one of a hundred tests, so what is named together holds it, once something was found at all. A simpler one that predicts
-left-out levels as well is named too: of few runs no more can be asked. One that predicts them worse than the model as asked
-is none that data support, whatever it leaves.
+left-out levels as well is named too: of few runs no more can be asked. One that predicts them far worse than others do is
+none that data support, whatever it leaves.
 """
 
 from __future__ import annotations
@@ -31,6 +31,9 @@ REFUTED = 0.01
 
 AS_WELL = 1.05
 """Ratio of left-out errors up to which the simpler model predicts as well."""
+
+FAR_WORSE = 2.0
+"""Ratio of left-out errors from which a model is none that data support."""
 
 BASES = 3
 """How many of the best models, and the best of each place, are tried together with others if none suffices by itself."""
@@ -91,10 +94,9 @@ def _richer(chosen: Comparison, asked: Candidate, first: Evidence) -> list[Candi
         mixed = [_tried(chosen, family, asked) for family in mixtures(_bases(found), alone)]
     else:
         mixed = []
-    models = [
-        replace(candidate, sufficient=candidate.sufficient and _left_out(candidate) <= _left_out(asked))
-        for candidate in (*(candidate for _, candidate in found), *mixed)
-    ]
+    models = [*(candidate for _, candidate in found), *mixed]
+    far = FAR_WORSE * min((_left_out(one) for one in models if one.p_value >= REFUTED), default=float("inf"))
+    models = [replace(one, sufficient=one.sufficient and _left_out(one) <= far) for one in models]
     least = min((candidate for candidate in models if candidate.sufficient), key=_left_out, default=None)
     if least is not None:
         models = [
@@ -118,9 +120,9 @@ def _tried(chosen: Comparison, family: Family, asked: Candidate) -> Candidate:
 
 
 def _close(one: Candidate, best: Candidate, asked: Candidate) -> bool:
-    """Whether a model is not refuted and predicts no worse than as asked, or predicts as well as the best with less."""
+    """Whether a model is not refuted and predicts no worse, or predicts as well as the best with less."""
     if one.p_value >= REFUTED:
-        return _left_out(one) <= _left_out(asked) and not _worse(one, best)
+        return _left_out(one) <= FAR_WORSE * _left_out(best) and not _worse(one, best)
     return one.parameters < best.parameters and _left_out(one) <= AS_WELL * _left_out(best) < _left_out(asked)
 
 
