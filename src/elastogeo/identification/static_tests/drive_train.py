@@ -70,10 +70,10 @@ class OnAxisRecord:
         Of the tool relative to the workpiece, from where the command puts it, along the axis.
     velocity : array, shape (m,) [mm/s], or None
         Of the axis; with it, what changes with the direction of motion (backlash, friction) is told from the compliance.
-    current : array, shape (m,) [A], or None
-        Of the motor.
     run : sequence of str, length m, or None
         Which run each reading is of.
+    current : array, shape (m,) [A], or None
+        Of the motor.
     """
 
     axis: str
@@ -83,8 +83,8 @@ class OnAxisRecord:
     scale: Array | None = None
     deflection: Array | None = None
     velocity: Array | None = None
-    current: Array | None = None
     run: Sequence[str] | None = None
+    current: Array | None = None
 
     def __post_init__(self) -> None:
         """Refuse channels that do not fit together."""
