@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from elastogeo.machine import COMPONENTS, Array, Joint, Machine
+from elastogeo.machine import COMPONENTS, Array, Machine, Site
 from elastogeo.sources.families import family
 from elastogeo.sources.situation import Situation
 from elastogeo.sources.source import Source, twist_unit
@@ -36,28 +36,36 @@ class JointLoad:
 def joint_compliance(machine: Machine) -> Iterator[Source]:
     """All 36 compliances of every compliant joint, row by row of each joint's matrix (Eq. 4.14)."""
     for joint in machine.compliant:
-        yield from (_compliance(joint, d, f) for d in range(6) for f in range(6))
+        yield from spring("C", ("motion", joint.name), f"joint {joint.name}")
 
 
-def _compliance(joint: Joint, d: int, f: int) -> Source:
-    return Source(
-        name=f"C_{COMPONENTS[d]}{COMPONENTS[f]}{joint.name}",
-        unit=f"{twist_unit(d)}/{'N' if f < 3 else '(N mm)'}",
-        site=("motion", joint.name),
-        component=d,
-        driver=JointLoad(joint.name, f),
-        meaning=f"{twist_words(d)} for a {load_words(f)}, at joint {joint.name}",
-        load=f,
-        force_degree=1.0,
-    )
+def spring(letter: str, site: Site, where: str) -> Iterator[Source]:
+    """The 36 compliances of one site, row by row: `letter` begins their names, `where` says it in words."""
+    for d in range(6):
+        for f in range(6):
+            yield Source(
+                name=f"{letter}_{COMPONENTS[d]}{COMPONENTS[f]}{site[1]}",
+                unit=f"{twist_unit(d)}/{'N' if f < 3 else '(N mm)'}",
+                site=site,
+                component=d,
+                driver=JointLoad(site[1], f),
+                meaning=f"{_twist_words(d)} for a {_load_words(f)}, at {where}",
+                load=f,
+                force_degree=1.0,
+            )
 
 
-def twist_words(component: int) -> str:
+def load_of(source: Source) -> JointLoad:
+    """The load that drives a compliance."""
+    return JointLoad(source.site[1], source.load or 0)
+
+
+def _twist_words(component: int) -> str:
     """A displacement component in words: `rotation about z`."""
     return _WORDS[COMPONENTS[component]]
 
 
-def load_words(component: int) -> str:
+def _load_words(component: int) -> str:
     """A load component in words: `moment about x`."""
     return f"{'moment about' if component >= 3 else 'force in'} {'xyz'[component % 3]}"
 

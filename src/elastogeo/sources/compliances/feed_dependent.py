@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from elastogeo.machine import Array, Joint, Machine
-from elastogeo.sources.compliance import JointLoad, joint_compliance
+from elastogeo.sources.compliance import JointLoad, joint_compliance, load_of
 from elastogeo.sources.families import family
 from elastogeo.sources.situation import Situation
 from elastogeo.sources.source import Source
@@ -45,6 +45,6 @@ def feed_dependent_compliance(machine: Machine) -> Iterator[Source]:
                 source,
                 name=f"C{letter}_{source.name.removeprefix('C_')}",
                 unit=f"{source.unit} s/{per}",
-                driver=LoadTimesVelocity(JointLoad(joint.name, source.load or 0), magnitude),
+                driver=LoadTimesVelocity(load_of(source), magnitude),
                 meaning=f"what {source.name} gains per {word} of {joint.name}",
             )

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from elastogeo.machine import Array, Machine
-from elastogeo.sources.compliance import JointLoad, joint_compliance
+from elastogeo.sources.compliance import JointLoad, joint_compliance, load_of
 from elastogeo.sources.families import family
 from elastogeo.sources.situation import Situation
 from elastogeo.sources.source import Source
@@ -35,11 +35,7 @@ def force_dependent_compliance(machine: Machine) -> Iterator[Source]:
                 source,
                 name=f"CF{power}_{source.name.removeprefix('C_')}",
                 unit=f"{source.unit}/N" if power == 1 else f"{source.unit}/N^{power}",
-                driver=LoadTimesForce(_load_of(source), power),
+                driver=LoadTimesForce(load_of(source), power),
                 meaning=f"what {source.name} gains per {'N' if power == 1 else f'N^{power}'}",
                 force_degree=1.0 + power,
             )
-
-
-def _load_of(source: Source) -> JointLoad:
-    return JointLoad(source.site[1], source.load or 0)

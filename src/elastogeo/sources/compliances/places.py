@@ -11,27 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from elastogeo.machine import COMPONENTS, Machine, Place
-from elastogeo.sources.compliance import JointLoad, load_words, twist_words
+from elastogeo.machine import Machine
+from elastogeo.sources.compliance import spring
 from elastogeo.sources.families import family
-from elastogeo.sources.source import Source, twist_unit
+from elastogeo.sources.source import Source
 
 
 @family
 def place_compliance(machine: Machine) -> Iterator[Source]:
     """All 36 compliances of every declared place, along the axes of the carriage that it is fixed to."""
     for place in machine.places:
-        yield from (_compliance(place, d, f) for d in range(6) for f in range(6))
-
-
-def _compliance(place: Place, d: int, f: int) -> Source:
-    return Source(
-        name=f"CL_{COMPONENTS[d]}{COMPONENTS[f]}{place.name}",
-        unit=f"{twist_unit(d)}/{'N' if f < 3 else '(N mm)'}",
-        site=("place", place.name),
-        component=d,
-        driver=JointLoad(place.name, f),
-        meaning=f"{twist_words(d)} for a {load_words(f)}, at the place {place.name}",
-        load=f,
-        force_degree=1.0,
-    )
+        yield from spring("CL", ("place", place.name), f"the place {place.name}")

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from elastogeo.machine import Array, Machine
-from elastogeo.sources.compliance import JointLoad, joint_compliance
+from elastogeo.sources.compliance import JointLoad, joint_compliance, load_of
 from elastogeo.sources.families import family
 from elastogeo.sources.situation import Situation
 from elastogeo.sources.source import Source
@@ -39,6 +39,6 @@ def one_way_compliance(machine: Machine) -> Iterator[Source]:
             yield replace(
                 source,
                 name=f"C{letter}_{source.name.removeprefix('C_')}",
-                driver=OneWay(JointLoad(source.site[1], source.load or 0), positive),
+                driver=OneWay(load_of(source), positive),
                 meaning=f"{source.name} for a {word} load",
             )

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from elastogeo.machine import Array, Machine
-from elastogeo.sources.compliance import JointLoad, joint_compliance
+from elastogeo.sources.compliance import JointLoad, joint_compliance, load_of
 from elastogeo.sources.families import family, named
 from elastogeo.sources.situation import Situation
 from elastogeo.sources.source import Source
@@ -58,7 +58,7 @@ def _stiffening(source: Source, exponent: float, written: str) -> Source:
         source,
         name=f"H{written}_{source.name.removeprefix('C_')}",
         unit=f"{source.unit.partition('/')[0]}/{'N' if translation else '(N mm)'}^{exponent:.4g}",
-        driver=StiffeningLoad(JointLoad(source.site[1], source.load or 0), exponent),
+        driver=StiffeningLoad(load_of(source), exponent),
         meaning=f"stiffening part of {source.name}: load to the power {exponent:.4g}",
         force_degree=exponent,
     )

@@ -16,7 +16,7 @@ from math import isfinite
 import numpy as np
 
 from elastogeo.machine import Array, Joint, Machine
-from elastogeo.sources.compliance import JointLoad, joint_compliance
+from elastogeo.sources.compliance import JointLoad, joint_compliance, load_of
 from elastogeo.sources.families import family, named
 from elastogeo.sources.situation import Situation
 from elastogeo.sources.source import Source
@@ -94,6 +94,6 @@ def _travelling(source: Source, power: int, machine: Machine) -> Source:
         source,
         name=f"CQ{power}_{source.name.removeprefix('C_')}",
         unit=f"{source.unit}/{per}",
-        driver=LoadTimesTravel(JointLoad(joint.name, source.load or 0), power),
+        driver=LoadTimesTravel(load_of(source), power),
         meaning=f"what {source.name} gains per {per} of travel of {joint.name}",
     )
