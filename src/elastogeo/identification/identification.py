@@ -108,6 +108,8 @@ def identify(one: Askable, **asked: Unpack[Asked]) -> Identification:
 def identify_observed(one: Askable, observations: Sequence[Observations] | None = None) -> Identification:
     """Identify what the tests' question asks for, as `identify`; of one test with observations that were made before."""
     campaign = campaign_of(one)
+    if observations is None and not campaign.several:
+        observations = campaign.only.observations()
     systems = systems_of(campaign, observations)
     found = confounding_of(campaign, systems)
     if campaign.question.robust:
@@ -115,7 +117,7 @@ def identify_observed(one: Askable, observations: Sequence[Observations] | None 
     if campaign.several:
         systems = systems.holding(found.retained)
     known = effects_of(campaign, systems)
-    result = replace(_identified(campaign, systems, found, known), corrected=_corrected(campaign, systems, found))
+    result = replace(_identified(campaign, systems, found, known), corrected=_corrected(campaign, observations or (), found))
     return _assessed(result, systems, known)
 
 
@@ -353,12 +355,11 @@ def _rmse(traces: Sequence[Trace]) -> float:
     return rmse(np.concatenate([t.predicted for t in traces]), np.concatenate([t.measured for t in traces]))
 
 
-def _corrected(campaign: Campaign, systems: Systems, found: Confounding) -> dict[str, float]:
-    """How much greater each parameter would be with what was subtracted from the readings left in; empty if nothing was."""
-    if campaign.several or not any(run.observations.correction.any() for run in systems.runs):
+def _corrected(campaign: Campaign, observations: Sequence[Observations], found: Confounding) -> dict[str, float]:
+    """How much greater each parameter would be with what was subtracted from one test's readings left in; else empty."""
+    if not any(run.correction.any() for run in observations):
         return {}
-    test = campaign.only
-    left_in = systems_of(test, [run.with_reading(run.correction) for run in test.observations()])
+    left_in = systems_of(campaign, [run.with_reading(run.correction) for run in observations])
     values = solve(merged(left_in.runs), found.retained).values
     return dict(zip(found.retained, map(float, values), strict=True))
 
