@@ -11,7 +11,8 @@ Where is this machine soft, where is it crooked, how sure are we, and what could
 
 This is the public face: what is listed here is what tutorials use, and nothing else is promised. A name is imported when it
 is used first, so that `import elastogeo` costs nothing. The rooms behind it, from the ground up: `estimate`, `machine`,
-`drive`, `observe`, `sources`, `formats`, `identification`, `report`, `recording`, `cli`; imports only go down.
+`drive`, `observe`, `sources`, `formats`, `identification`, `prediction`, `planning`, `report`, `recording`, `cli`; imports
+only go down.
 """
 
 from importlib import import_module
