@@ -16,6 +16,10 @@ from elastogeo.machine.frames import (
 from elastogeo.machine.jacobian import COMPONENTS, carried_to, jacobian
 from elastogeo.machine.machine import DOWN, Joint, Machine
 from elastogeo.machine.places import Place
+from elastogeo.machine.programs.blocks import PLANE_AXES, Arc, Block, Comment, Dwell, Line, Rapid, Stop
+from elastogeo.machine.programs.motion import MovesOf, ProgramPath
+from elastogeo.machine.programs.packed import PROGRAM_AXES, Packing
+from elastogeo.machine.programs.program import Program
 from elastogeo.machine.quantity import (
     MM_OR_RAD,
     Angle,
@@ -56,15 +60,21 @@ __all__ = [
     "DOWN",
     "LINEAR",
     "MM_OR_RAD",
+    "PLANE_AXES",
+    "PROGRAM_AXES",
     "ROTARY",
     "SPINDLE",
     "About",
     "Angle",
+    "Arc",
     "Array",
     "AxisCommands",
+    "Block",
     "Commands",
+    "Comment",
     "Current",
     "Damping",
+    "Dwell",
     "Feed",
     "Force",
     "ForcePerCurrent",
@@ -79,18 +89,25 @@ __all__ = [
     "LengthPerPressure",
     "Lengths",
     "LengthsPerForce",
+    "Line",
     "LoopFrames",
     "Machine",
     "Mass",
     "Motion",
+    "MovesOf",
+    "Packing",
     "PerLength",
     "Place",
     "Point",
     "Pressure",
     "Pressures",
+    "Program",
+    "ProgramPath",
+    "Rapid",
     "Resolution",
     "RotationVector",
     "Site",
+    "Stop",
     "Targets",
     "Temperature",
     "Time",
