@@ -93,7 +93,8 @@ def test_parts_of_a_path_are_the_path() -> None:
     parts = list(program.paths(MACHINE, step=1.0, blocks=4))
     assert len(parts) == 3
     for name in ("commands", "velocity", "block", "feed", "time"):
-        np.testing.assert_array_equal(np.concatenate([getattr(part, name) for part in parts]), getattr(whole, name), name)
+        joined = np.concatenate([getattr(part, name) for part in parts])
+        np.testing.assert_allclose(joined, getattr(whole, name), rtol=1e-14, err_msg=name)
 
 
 @pytest.mark.parametrize(
