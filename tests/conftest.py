@@ -115,3 +115,14 @@ def thesis_forces() -> tuple[float, ...]:
 @pytest.fixture(scope="session")
 def shared_data() -> Path:
     return SHARED_DATA
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """Say in the last line of a test run what was left out of it, so that nobody takes it for tested."""
+    reporter = config.pluginmanager.get_plugin("terminalreporter")
+    if reporter is None or hasattr(config, "workerinput") or config.option.collectonly:
+        return
+    reports = [report for report in reporter.stats.get("skipped", []) if isinstance(report.longrepr, tuple)]
+    reasons = sorted({str(report.longrepr[2]).removeprefix("Skipped: ") for report in reports})
+    reporter.ensure_newline()
+    reporter.write_line(f"Left out: {'; '.join(reasons) or 'nothing'}.")
