@@ -133,14 +133,14 @@ def ceiling(machine: Machine, reciprocal: bool = False, held: Mapping[str, float
 
     Raises
     ------
-    InputError
+    SelectionError
         If the machine has no compliance.
     MachineError
-        If it has no such axis.
+        If it has no axis that is held.
     """
     held = dict(held or {})
-    compliances = [s for s in select_sources(machine, ["C_*", *(["CL_*"] if machine.places else [])]) if s.site[0] in _SITES]
-    sources = reciprocal_sources(compliances) if reciprocal else tuple(compliances)
+    compliances = compliances_of(machine)
+    sources = reciprocal_sources(compliances) if reciprocal else compliances
     commands = np.zeros((1, len(machine.axes)))
     for axis, command in held.items():
         commands[0, machine.index(axis)] = command
@@ -155,7 +155,15 @@ def ceiling(machine: Machine, reciprocal: bool = False, held: Mapping[str, float
     )
 
 
-_SITES = ("motion", "place")
+def compliances_of(machine: Machine) -> tuple[Source, ...]:
+    """All 36 compliances of every compliant joint and place, in the order of the catalogue.
+
+    Raises
+    ------
+    SelectionError
+        If there are none.
+    """
+    return tuple(select_sources(machine, ["C_*", *(["CL_*"] if machine.places else [])]))
 
 
 @dataclass(frozen=True, slots=True)
