@@ -12,7 +12,7 @@ from scipy import stats
 from scipy.linalg import block_diag, solve_triangular
 
 from elastogeo.errors import DegreesOfFreedomError, InputError, RankError
-from elastogeo.estimate import Factor, draw_estimates, factor_blocks, merge, solve, solve_by_run
+from elastogeo.estimate import Factor, draw_estimates, factor_blocks, merge, solve, solve_as_runs_show, solve_by_run
 from elastogeo.machine import Array
 
 LABELS = ("a", "b", "c")
@@ -213,3 +213,31 @@ def test_blocks_of_runs_need_not_be_of_full_rank() -> None:
     assert np.linalg.matrix_rank(block_diag(*designs)) == 6
     assert_allclose(solution.covariance, covariance, rtol=1e-8)
     assert_allclose(solution.degrees_of_freedom, degrees, rtol=1e-8)
+
+
+def test_a_combination_is_worth_what_it_is_as_a_parameter_of_its_own(problem: tuple[list[Array], list[Array]]) -> None:
+    """The model is written in other parameters, of which the combination is one: its variance and freedom do not change."""
+    designs, readings = problem
+    scatter = solve_by_run(factors(designs, readings), LABELS).scatter
+    assert scatter is not None
+    weights = np.array([[1.0, 2e3, -3e-4], [0.0, 1.0, 0.0], [0.5, 0.0, 1e-4]])
+    for w in weights:
+        others = np.linalg.svd(w[np.newaxis])[2][1:]
+        turned = np.linalg.inv(np.vstack([w, others]))
+        own = solve_by_run(factors([A @ turned for A in designs], readings), LABELS)
+        assert scatter.variance(w[np.newaxis])[0] == pytest.approx(own.covariance[0, 0], rel=1e-7)
+        assert scatter.degrees_of_freedom(w[np.newaxis])[0] == pytest.approx(own.degrees_of_freedom[0], rel=1e-7)
+    assert_allclose(scatter.degrees_of_freedom(weights), [scatter.degrees_of_freedom(w[np.newaxis])[0] for w in weights])
+    assert_allclose(np.diag(scatter.covariance(weights)), scatter.variance(weights), rtol=1e-12)
+
+
+def test_a_combination_that_hangs_on_one_run_has_no_degree_of_freedom() -> None:
+    random = np.random.default_rng(6)
+    designs = [np.column_stack([np.ones(9), np.arange(9.0) if k == 0 else np.zeros(9)]) for k in range(6)]
+    runs = factors(designs, [random.standard_normal(9) for _ in range(6)], ("a", "b"))
+    solution, unshown = solve_as_runs_show(runs, ("a", "b"))
+    assert unshown == ("b",)
+    assert solution.scatter is not None
+    degrees = solution.scatter.degrees_of_freedom(np.array([[1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]))
+    assert degrees[0] > 1
+    assert_allclose(degrees[1:], 0.0)

@@ -14,6 +14,7 @@ from elastogeo.errors import DegreesOfFreedomError, RankError, several
 from elastogeo.estimate.confounding import RANK_TOLERANCE
 from elastogeo.estimate.estimate import Estimate
 from elastogeo.estimate.factor import Array, Factor, select
+from elastogeo.estimate.run_scatter import RunScatter
 
 SOLVABLE = 1e-12
 """Least ratio of singular values of the scaled columns that is solved; below, rounding error decides. Far below the
@@ -51,6 +52,8 @@ class Solution(ByValue):
         Of the standard uncertainty of each value.
     residual_std : float
         Estimated standard deviation of one reading.
+    scatter : RunScatter or None
+        How the runs scatter about it, where its covariance counts on runs.
     """
 
     labels: tuple[str, ...]
@@ -58,6 +61,7 @@ class Solution(ByValue):
     covariance: Array
     degrees_of_freedom: Array
     residual_std: float
+    scatter: RunScatter | None = None
 
     @property
     def standard_uncertainty(self) -> Array:

@@ -13,6 +13,7 @@ from elastogeo.identification.calibrations import (
 )
 from elastogeo.identification.campaigns.agreement import AgainstOthers, TestsAgreement
 from elastogeo.identification.campaigns.parts import Step, TestPart
+from elastogeo.identification.campaigns.scopes import plain
 from elastogeo.identification.change import SIGNIFICANT, Change, difference, local_change, run_dispersion
 from elastogeo.identification.check import Check
 from elastogeo.identification.explanation import Explanation, explain
@@ -47,6 +48,7 @@ from elastogeo.identification.preference import moving_axes, retaining_order
 from elastogeo.identification.question import (
     confounding_of,
     effects_of,
+    sources_of,
     systems_of,
     what_reciprocity_buys,
     with_question,
@@ -209,6 +211,7 @@ __all__ = [
     "merged",
     "moving_axes",
     "noise_of",
+    "plain",
     "reciprocal_sources",
     "reciprocity",
     "retaining_order",
@@ -217,6 +220,7 @@ __all__ = [
     "run_systems",
     "shared_harmonic",
     "shows_deviations",
+    "sources_of",
     "standard_values",
     "static_line",
     "strongest_harmonic",

@@ -82,6 +82,10 @@ class Budget:
         Effective (JCGM 100, G.4).
     interval : array, shape (p, 2)
         95 % coverage interval about the values (JCGM 100, G.6.4).
+    systematic : array, shape (q, p)
+        By how much one standard uncertainty of each influence moves the parameters.
+    freedoms : array, shape (q,)
+        Degrees of freedom of each.
     """
 
     labels: tuple[str, ...]
@@ -89,6 +93,8 @@ class Budget:
     covariance: Array
     degrees_of_freedom: Array
     interval: Array
+    systematic: Array
+    freedoms: Array
 
     @property
     def standard_uncertainty(self) -> Array:
@@ -134,18 +140,14 @@ def uncertainty_budget(systems: Systems, solution: Solution, effects: Sequence[E
     effects : sequence of Effect
     """
     moments = _moments(systems, solution)
-    sensitivities = [_sensitivity(systems, solution, effect, moments) for effect in effects]
+    sizes = [effect.influence.standard_uncertainty for effect in effects]
+    moved = [size * _sensitivity(systems, solution, e, moments) for size, e in zip(sizes, effects, strict=True)]
+    systematic = np.array(moved).reshape(len(effects), len(solution.labels))
+    freedoms = np.array([effect.influence.degrees_of_freedom for effect in effects])
     scatter = solution.standard_uncertainty
-    contributions = np.column_stack(
-        [scatter, *(np.abs(c) * e.influence.standard_uncertainty for c, e in zip(sensitivities, effects, strict=True))]
-    )
-    degrees = np.column_stack(
-        [solution.degrees_of_freedom, *(np.full(len(scatter), e.influence.degrees_of_freedom) for e in effects)]
-    )
-    covariance = solution.covariance + sum(
-        (np.outer(c, c) * e.influence.standard_uncertainty**2 for c, e in zip(sensitivities, effects, strict=True)),
-        np.zeros_like(solution.covariance),
-    )
+    contributions = np.column_stack([scatter, np.abs(systematic).T])
+    degrees = np.column_stack([solution.degrees_of_freedom, np.tile(freedoms, (len(scatter), 1))])
+    covariance = solution.covariance + systematic.T @ systematic
     effective = effective_degrees_of_freedom(contributions, degrees)
     half = coverage_factor(effective) * np.sqrt(np.diag(covariance))
     return Budget(
@@ -154,6 +156,8 @@ def uncertainty_budget(systems: Systems, solution: Solution, effects: Sequence[E
         covariance=covariance,
         degrees_of_freedom=effective,
         interval=np.column_stack([solution.values - half, solution.values + half]),
+        systematic=systematic,
+        freedoms=freedoms,
     )
 
 

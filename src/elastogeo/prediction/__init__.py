@@ -3,7 +3,8 @@
 Stands on `identification`, `formats` and all below; knows no figure.
 """
 
-from elastogeo.prediction.scales import TYPICAL_COMPLIANCE, TYPICAL_LEVER, compliance_scales
+from elastogeo.prediction.knowledge import Knowledge, Predicted, knowledge_of
+from elastogeo.prediction.scales import TYPICAL_COMPLIANCE, TYPICAL_LEVER, compliance_scales, parameter_scales
 from elastogeo.prediction.support import SUPPORTED, unsupported_share
 from elastogeo.prediction.virtual import functionals, virtual_observations
 
@@ -11,8 +12,12 @@ __all__ = [
     "SUPPORTED",
     "TYPICAL_COMPLIANCE",
     "TYPICAL_LEVER",
+    "Knowledge",
+    "Predicted",
     "compliance_scales",
     "functionals",
+    "knowledge_of",
+    "parameter_scales",
     "unsupported_share",
     "virtual_observations",
 ]
