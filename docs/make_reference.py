@@ -31,6 +31,9 @@ GROUPS = {
         "identify", "explain", "diagnose", "what_if", "compare", "map_stiffness", "evaluate_static", "evaluate_positioning",
         "identify_drives", "calibrate",
     ),
+    "Before and after a test": (
+        "compensate",
+    ),
     "What comes back": ("Result", "Estimate", "MachineTest", "Campaign", "Machine"),
     "What may go wrong": ("ElastogeoError", "InputError", "UnsupportedError"),
 }  # fmt: skip
@@ -47,6 +50,7 @@ what you write lives in one.
 RECIPES = {
     "A format of run files": "elastogeo.formats.run_files",
     "A format of logs": "elastogeo.formats.log_files",
+    "Compensation files of a control": "elastogeo.formats.compensation_files",
     "An instrument": "elastogeo.observe.instruments",
     "An error source": "elastogeo.sources.families",
     "A result that shows itself": "elastogeo.report.view",

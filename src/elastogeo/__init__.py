@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     )
     from elastogeo.machine import Machine
     from elastogeo.observe import Campaign, MachineTest
+    from elastogeo.prediction import compensate
     from elastogeo.result import Result
 
 __version__ = version.VERSION
@@ -65,6 +66,7 @@ _HOME = {
     "UnsupportedError": "errors",
     "calibrate": "identification",
     "compare": "identification",
+    "compensate": "prediction",
     "diagnose": "identification",
     "evaluate_positioning": "identification",
     "evaluate_static": "identification",
@@ -99,6 +101,7 @@ __all__ = [
     "__version__",
     "calibrate",
     "compare",
+    "compensate",
     "diagnose",
     "evaluate_positioning",
     "evaluate_static",

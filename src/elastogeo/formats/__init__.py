@@ -5,6 +5,14 @@ Stands on `sources`, `observe`, `machine` and `errors`.
 
 from elastogeo.formats.channel_uses import ChannelUse, Clock
 from elastogeo.formats.channels import OnOneClock, on_one_clock
+from elastogeo.formats.compensation_files import (
+    CompensationFormat,
+    compensation_format,
+    compensation_formats,
+    compensation_text,
+    read_back,
+    read_compensation,
+)
 from elastogeo.formats.documents.calibrations import (
     CalibrationDocument,
     DeflectionDocument,
@@ -50,6 +58,7 @@ __all__ = [
     "Channel",
     "ChannelUse",
     "Clock",
+    "CompensationFormat",
     "DeflectionDocument",
     "Gap",
     "Inspected",
@@ -64,6 +73,9 @@ __all__ = [
     "Simulation",
     "Table",
     "calibration_text",
+    "compensation_format",
+    "compensation_formats",
+    "compensation_text",
     "encode_part",
     "example_test",
     "find_machine",
@@ -77,8 +89,10 @@ __all__ = [
     "part_files",
     "part_name",
     "poses_of",
+    "read_back",
     "read_calibration",
     "read_campaign",
+    "read_compensation",
     "read_drives",
     "read_head",
     "read_log",

@@ -3,6 +3,7 @@
 from elastogeo.estimate import Array
 from elastogeo.machine.about import About
 from elastogeo.machine.commands import Commands, Motion, follow, workpiece_ball
+from elastogeo.machine.error_tables import SIDES, ErrorTable, motion_of
 from elastogeo.machine.frames import (
     Frame,
     JointFrames,
@@ -63,6 +64,7 @@ __all__ = [
     "PLANE_AXES",
     "PROGRAM_AXES",
     "ROTARY",
+    "SIDES",
     "SPINDLE",
     "About",
     "Angle",
@@ -75,6 +77,7 @@ __all__ = [
     "Current",
     "Damping",
     "Dwell",
+    "ErrorTable",
     "Feed",
     "Force",
     "ForcePerCurrent",
@@ -121,6 +124,7 @@ __all__ = [
     "follow",
     "jacobian",
     "loop_frames",
+    "motion_of",
     "parse_topology",
     "rotation_matrix",
     "steady",

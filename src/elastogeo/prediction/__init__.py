@@ -3,6 +3,7 @@
 Stands on `identification`, `formats` and all below; knows no figure.
 """
 
+from elastogeo.prediction.compensation import compensate
 from elastogeo.prediction.knowledge import Knowledge, Predicted, knowledge_of
 from elastogeo.prediction.scales import TYPICAL_COMPLIANCE, TYPICAL_LEVER, compliance_scales, parameter_scales
 from elastogeo.prediction.support import SUPPORTED, unsupported_share
@@ -14,6 +15,7 @@ __all__ = [
     "TYPICAL_LEVER",
     "Knowledge",
     "Predicted",
+    "compensate",
     "compliance_scales",
     "functionals",
     "knowledge_of",

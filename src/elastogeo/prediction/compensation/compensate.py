@@ -1,0 +1,93 @@
+"""From results to the compensation files of a control, and what is expected after they are loaded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from elastogeo.errors import InputError
+from elastogeo.formats import CompensationFormat, compensation_format, compensation_text, read_back
+from elastogeo.identification import PositioningResults
+from elastogeo.observe import Campaign, campaign_of
+from elastogeo.prediction.compensation.by_targets import found_by_targets
+from elastogeo.prediction.compensation.parts import ErrorPart, FoundError
+from elastogeo.prediction.compensation.result import CompensatedError, Compensation, LeftOut
+from elastogeo.prediction.compensation.verdict import checks
+
+
+def compensate(
+    *results: PositioningResults,
+    control: str = "linuxcnc",
+    settings: Mapping[str, str] | None = None,
+    zero_at: Mapping[str, float] | None = None,
+) -> Compensation:
+    """The compensation files of a control, and what is left of the errors after they are loaded.
+
+    A part of an error (the curve of an axis, what it loses when it turns back) is written if it is greater than its expanded
+    uncertainty, and if the tests determine it by itself; what is not is named, with the reason. What is left is what was
+    found less what the control makes of its own files, read back.
+
+    Parameters
+    ----------
+    *results : PositioningResults
+        Of one machine; one for each axis and component.
+    control : str
+        `linuxcnc`, `sinumerik-lec`, `sinumerik-cec`, `heidenhain`, `fanuc`, `isg`, `csv`.
+    settings : mapping of str to str, optional
+        Of the control, by name.
+    zero_at : mapping of str to float, optional [mm or rad]
+        By axis, the position whose error counts as zero: where the machine refers to. 0 by default.
+
+    Raises
+    ------
+    InputError
+        If there is no such control or setting, or two results are of one error or of different machines.
+    """
+    form = compensation_format(control)
+    values = form.with_defaults(settings or {})
+    found = [found_by_targets(one, (zero_at or {}).get(one.axis)) for one in results]
+    campaign = _campaign(results, found)
+    left = [out for one in found for out in _left_out(one, form)]
+    chosen = {
+        one.table.name: certain for one in found if not form.takes(one.table) and (certain := one.certain()) is not None
+    }
+    files = compensation_text(list(chosen.values()), control, values) if chosen else {}
+    applied = {table.name: table for table in read_back(files, control, values)}
+    errors = tuple(CompensatedError(one, applied[one.table.name]) for one in found if one.table.name in chosen)
+    return Compensation(
+        campaign=campaign,
+        control=form.name,
+        title=form.title,
+        settings=values,
+        errors=errors,
+        left_out=tuple(left),
+        files=files,
+        verdict=checks(errors, left, form.sign_is_public),
+    )
+
+
+def _campaign(results: Sequence[PositioningResults], found: Sequence[FoundError]) -> Campaign:
+    if not results:
+        raise InputError("there is nothing to compensate; give one result or more")
+    names = [one.table.name for one in found]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise InputError(f"two results are of {twice[0]}; give the one that is to be made good")
+    tests = [one.test for one in results]
+    return campaign_of(tests if len(tests) > 1 else tests[0])
+
+
+def _left_out(found: FoundError, form: CompensationFormat) -> Iterator[LeftOut]:
+    name = found.table.name
+    if found.unknown:
+        yield LeftOut(found.unknown, name, "not determined")
+    why = form.takes(found.table)
+    if why:
+        yield LeftOut(tuple(n for part in found.parts for n in part.names), name, "control", why=why)
+        return
+    for part in found.parts:
+        if not part.is_certain:
+            yield LeftOut(part.names, name, _reason(part), part.size, part.doubt)
+
+
+def _reason(part: ErrorPart) -> str:
+    return "no interval" if part.doubt != part.doubt else "uncertainty"

@@ -1,0 +1,161 @@
+"""What a control is told, and what is left of the errors after it: frozen numbers only."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from elastogeo.equality import ByValue
+from elastogeo.errors import UnsupportedError
+from elastogeo.formats import write_whole
+from elastogeo.identification import Check
+from elastogeo.machine import Array, ErrorTable
+from elastogeo.observe import Campaign
+from elastogeo.prediction.compensation.parts import FoundError
+from elastogeo.result import Result
+
+
+@dataclass(frozen=True, slots=True)
+class LeftOut:
+    """What is not made good, and why.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Of parameters.
+    table : str
+        Of the table that it belongs to: `E_XX`.
+    reason : str
+        `uncertainty` (it is not greater than its own), `no interval` (nothing shows its uncertainty), `not determined` (the
+        tests do not show it by itself), `control` (the control has no table for it), `not linear`.
+    size, doubt : float [mm or rad]
+        Root mean square of the part and of its expanded uncertainty; NaN where there is none.
+    why : str
+        What the control says of it.
+    """
+
+    names: tuple[str, ...]
+    table: str
+    reason: str
+    size: float = float("nan")
+    doubt: float = float("nan")
+    why: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CompensatedError(ByValue):
+    """An error before and after.
+
+    Attributes
+    ----------
+    found : FoundError
+    written : ErrorTable
+        What the control makes good, read back from its own files: with their points, rounding and sides.
+    """
+
+    found: FoundError
+    written: ErrorTable
+
+    @property
+    def error(self) -> ErrorTable:
+        """Before, with its uncertainty."""
+        return self.found.table
+
+    @property
+    def residual(self) -> ErrorTable:
+        """What is expected after, at the same positions, with its uncertainty.
+
+        What was found less what the control makes good. It is as uncertain as what was found: where the file says what was
+        found, nothing is left but that.
+        """
+        before = self.error
+        left = before.value - self.written.at(before.position)
+        return ErrorTable(before.axis, before.component, before.position, left, before.uncertainty)
+
+    @property
+    def correction(self) -> Array:
+        """By how much the control moves the axis otherwise than commanded, shape (k, 2), at the same positions."""
+        return -self.written.at(self.error.position)
+
+    @property
+    def before(self) -> tuple[float, float]:
+        """Greatest deviation [mm or rad] without sign, and its expanded uncertainty."""
+        return _greatest(self.error)
+
+    @property
+    def after(self) -> tuple[float, float]:
+        """As `before`, of what is expected after."""
+        return _greatest(self.residual)
+
+    @property
+    def bound(self) -> float:
+        """What no deviation after exceeds [mm or rad], each by itself at 95 %: the farthest end of the intervals."""
+        left = self.residual
+        return float(np.max(np.abs(left.value) + left.uncertainty))
+
+    @property
+    def by_interpolation(self) -> float:
+        """Greatest part of what is left [mm or rad] that comes of the points and the rounding of the file."""
+        chosen = self.found.certain()
+        if chosen is None:
+            return 0.0
+        return float(np.abs(chosen.value - self.written.at(chosen.position)).max())
+
+
+def _greatest(table: ErrorTable) -> tuple[float, float]:
+    where = np.unravel_index(int(np.abs(table.value).argmax()), table.value.shape)
+    return float(abs(table.value[where])), float(table.uncertainty[where])
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Compensation(Result):
+    """What a control is told, and what is left after it.
+
+    Attributes
+    ----------
+    campaign : Campaign
+        The tests that the errors were found from.
+    control : str
+        Its name, as of `elastogeo.formats.compensation_formats`.
+    title : str
+        What its files are, in words.
+    settings : mapping of str to str
+        Of the control: every one with its value.
+    errors : tuple of CompensatedError
+        Those of which anything was written.
+    left_out : tuple of LeftOut
+    files : mapping of str to bytes
+        Content by file name.
+    verdict : tuple of Check
+    """
+
+    campaign: Campaign
+    control: str
+    title: str
+    settings: Mapping[str, str]
+    errors: tuple[CompensatedError, ...]
+    left_out: tuple[LeftOut, ...]
+    files: Mapping[str, bytes]
+    verdict: tuple[Check, ...]
+
+    def __getitem__(self, name: str) -> CompensatedError:
+        """The error of this name: `E_XX`."""
+        return {one.error.name: one for one in self.errors}[name]
+
+    def write(self, folder: str | Path) -> tuple[Path, ...]:
+        """Write the files of the control to a folder: all of them, or none.
+
+        Raises
+        ------
+        UnsupportedError
+            If there is nothing to write.
+        """
+        if not self.files:
+            raise UnsupportedError(
+                "there is nothing to write: no error was found that is greater than its uncertainty, and that this control "
+                "makes good; see what was left out"
+            )
+        return write_whole({Path(folder) / name: content for name, content in self.files.items()})
