@@ -6,49 +6,18 @@ import numpy as np
 import pytest
 
 from elastogeo.identification import identify
-from elastogeo.machine import Joint, Machine, parse_topology
-from elastogeo.observe import Campaign, Circle, Imperfection, KnownInfluence, LoadedBallBar, MachineTest, Question, Run
 from elastogeo.prediction import Knowledge, knowledge_of, parameter_scales, virtual_observations
-from elastogeo.sources import catalogue, select_sources, simulate
-
-NOISE = Imperfection(noise=1e-4, eccentricity=1e-3, force_scatter=0.002)
-UNIT = np.eye(6)
-
-
-def machine() -> Machine:
-    """Three axes."""
-    topology = parse_topology("wYXFZt")
-    joints = tuple(Joint(axis, offset=(30.0, -20.0, 50.0)) for axis in topology.axes)
-    return Machine("three axes", topology, joints, tool=(0.0, 0.0, -150.0))
-
-
-def campaign(planes: tuple[str, ...] = ("XY", "YZ", "ZX"), repeats: int = 2, reciprocal: bool = False) -> Campaign:
-    """Simulated loaded circles at two forces, which the tests of this room share."""
-    random = np.random.default_rng(7)
-    truth = {s.name: float(random.normal() * parameter_scales([s])[0]) for s in select_sources(machine(), ["C_???"])}
-    angle = 2 * np.pi * np.arange(20) / 20
-    tests = {}
-    for k, plane in enumerate(planes):
-        runs = tuple(
-            Run(f"{force:g} N, {n}", {"angle": angle, "radial": np.zeros(20)}, force=force, repeat=n)
-            for force in (100.0, 700.0)
-            for n in range(1, repeats + 1)
-        )
-        setup = LoadedBallBar(Circle(150.0, plane=plane, centre={"X": 40.0 * k, "Y": -30.0 * k, "Z": 0.0}), 30.0)
-        gauge = (KnownInfluence("force-scale", "gauge", relative=0.01, degrees_of_freedom=20.0),)
-        question = Question(parameters=("C_???",), reciprocal=reciprocal)
-        test = MachineTest(plane, machine(), setup, runs, influences=gauge, question=question)
-        tests[f"{plane.lower()}{k}"] = simulate(test, truth, NOISE, 11 + k, exact=False)
-    return Campaign("circles", tests)
+from elastogeo.sources import catalogue
+from tests.prediction.circles import MIDDLE, circles, machine
 
 
 @pytest.fixture(scope="module")
 def known() -> Knowledge:
-    return knowledge_of(identify(campaign()))
+    return knowledge_of(identify(circles(MIDDLE, gauge=0.01)))
 
 
 def test_of_a_parameter_it_says_what_the_result_says() -> None:
-    result = identify(campaign())
+    result = identify(circles(MIDDLE, gauge=0.01))
     known = knowledge_of(result)
     found = known.predict(np.array([result.confounding.combinations[k] for k in range(len(result.parameters))]))
     assert found.supported.all()
@@ -90,15 +59,6 @@ def test_with_a_prior_it_says_how_much_is_prior(known: Knowledge) -> None:
     assert found.supported.tolist() == [False, False, True]
 
 
-def test_the_stretch_along_a_force_is_supported_and_across_it_is_not(known: Knowledge) -> None:
-    """planning.md: the symmetric part of what circles see; a single C_ij of free joints is not. One plane alone: its own."""
-    at = np.array([[10.0, -5.0, 20.0]])
-    rows = [known.rows(virtual_observations(known.machine, at, UNIT[d], UNIT[f]))[0] for d, f in ((0, 1), (1, 0))]
-    found = known.predict(np.array([*rows, np.add(*rows)]))
-    assert (found.unsupported[:2] > 0.3).all()
-    assert not found.supported[:2].any()
-
-
 def test_units_do_not_decide(known: Knowledge) -> None:
     """Parameters in other units: micrometres, kilonewtons, degrees, each parameter by a factor of its own."""
     random = np.random.default_rng(3)
@@ -129,7 +89,7 @@ def test_units_do_not_decide(known: Knowledge) -> None:
 
 
 def test_too_few_runs_give_values_without_uncertainty() -> None:
-    result = identify(campaign(("XY",), repeats=1))
+    result = identify(circles(MIDDLE[:1], repeats=1))
     assert not result.by_run
     found = knowledge_of(result).predict(result.confounding.combinations)
     assert found.supported.all()
@@ -138,7 +98,7 @@ def test_too_few_runs_give_values_without_uncertainty() -> None:
 
 
 def test_it_names_what_was_not_asked_for() -> None:
-    one = campaign(reciprocal=True)
+    one = circles(MIDDLE, reciprocal=True)
     assert knowledge_of(identify(one)).rigid == ()
     partly = knowledge_of(identify(one, parameters=["C_??X", "C_XXY"]))
     assert len(partly.rigid) == 35 + 36
@@ -146,8 +106,8 @@ def test_it_names_what_was_not_asked_for() -> None:
 
 
 def test_nothing_of_a_set_up_is_asked() -> None:
-    known = knowledge_of(identify(campaign(), parameters=["C_???", "E_Xt0", "E_Yt0"]))
-    rows = known.rows(virtual_observations(known.machine, np.zeros((1, 3)), UNIT[0], 0 * UNIT[0]))
+    known = knowledge_of(identify(circles(MIDDLE, gauge=0.01), parameters=["C_???", "E_Xt0", "E_Yt0"]))
+    rows = known.rows(virtual_observations(known.machine, np.zeros((1, 3)), np.eye(6)[0], np.zeros(6)))
     assert any(source.of_test for source in known.sources)
     assert not rows.any()
 

@@ -18,7 +18,7 @@ from elastogeo.estimate.propagation import (
 from elastogeo.estimate.refinement import refine
 from elastogeo.estimate.repeats import Common, Repeatability, repeatability
 from elastogeo.estimate.robust import HUBER, huber_weights
-from elastogeo.estimate.run_scatter import RunScatter
+from elastogeo.estimate.run_scatter import RunScatter, ScatterAlong
 from elastogeo.estimate.solution import SOLVABLE, Noise, Solution, minimum_norm, solve, white_noise
 
 __all__ = [
@@ -41,6 +41,7 @@ __all__ = [
     "PsdCone",
     "Repeatability",
     "RunScatter",
+    "ScatterAlong",
     "Solution",
     "confounding",
     "coverage_factor",

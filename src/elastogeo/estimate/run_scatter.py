@@ -53,45 +53,107 @@ class RunScatter(ByValue):
 
     def covariance(self, weights: Array) -> Array:
         """Covariance of combinations of the parameters, shape (m, m), for weights of shape (m, p)."""
-        moved = self._moved(weights)
+        moved = self.moved(self.over(weights))
         return np.asarray(moved @ moved.T)
 
     def variance(self, weights: Array) -> Array:
         """Variance of combinations of the parameters, shape (m,), for weights of shape (m, p)."""
-        return np.asarray(np.sum(self._moved(weights) ** 2, axis=1))
+        return np.asarray(np.sum(self.moved(self.over(weights)) ** 2, axis=1))
 
     def degrees_of_freedom(self, weights: Array) -> Array:
         """Satterthwaite's of the variance of each combination, shape (m,), for independent readings of equal variance.
 
         0 where it rests on one run alone, or the runs are two.
         """
+        return self.freedom(self.over(weights))
+
+    def over(self, weights: Array) -> Array:
+        """Weights, shape (m, p), in the space of the triangle, where `moved` and `freedom` take them: linear in them."""
+        return np.asarray(solve_triangular(self.whole, (weights / self.norms).T, trans="T").T)
+
+    def moved(self, over: Array) -> Array:
+        """What each run moves each combination by, shape (m, g); their squares add up to the variance."""
+        lifted = self.residuals * self.shares * self._lift()
+        return np.asarray(over @ np.einsum("gpk,gk->pg", self.directions, lifted))
+
+    def freedom(self, over: Array) -> Array:
+        """`degrees_of_freedom` of weights in the space of the triangle, shape (m,)."""
         block = max(1, _BLOCK // max(1, len(self.shares) * len(self.norms)))
-        found = [self._degrees(weights[first : first + block]) for first in range(0, len(weights), block)]
+        found = [self._freedom(over[first : first + block]) for first in range(0, len(over), block)]
         return np.concatenate([np.zeros(0), *found])
 
-    def _moved(self, weights: Array) -> Array:
-        """What each run moves each combination by, shape (m, g)."""
-        lifted = self.residuals * self.shares * self._lift()
-        return np.asarray(self._over(weights) @ np.einsum("gpk,gk->pg", self.directions, lifted))
+    def along(self, over: Array) -> ScatterAlong:
+        """The same for combinations of a few, shape (b, p), of which very many are asked."""
+        along = np.einsum("bp,gpk->gbk", over, self.directions, optimize=True)
+        left, lift = 1 - self.shares**2, self._lift()
+        own = along * (self.shares * lift)[:, np.newaxis]
+        across = (along * (self.shares**2 * lift)[:, np.newaxis]) @ self.directions.swapaxes(1, 2)
+        gram = -np.einsum("gbp,hcp->ghbc", across, across, optimize=True)
+        runs = np.arange(len(self.shares))
+        gram[runs, runs] += own @ own.swapaxes(1, 2)
+        first, second = np.triu_indices(len(over))
+        twice = np.where(first == second, 1.0, 2.0)
+        halves = (gram + gram.swapaxes(2, 3))[:, :, first, second].reshape(-1, len(first)) * (twice / 2)
+        return ScatterAlong(
+            enough=len(self.shares) >= FEWEST_RUNS,
+            trace=gram[runs, runs].sum(axis=0),
+            square=halves.T @ halves,
+            whole=over,
+            hanging=(along * (left <= SINGULAR)[:, np.newaxis]).swapaxes(0, 1).reshape(len(over), -1),
+        )
 
-    def _degrees(self, weights: Array) -> Array:
+    def _freedom(self, over: Array) -> Array:
         if len(self.shares) < FEWEST_RUNS:
-            return np.zeros(len(weights))
-        over = self._over(weights)
+            return np.zeros(len(over))
         along = np.einsum("mp,gpk->mgk", over, self.directions, optimize=True)
         hanging = np.linalg.norm(along * ((1 - self.shares**2) <= SINGULAR), axis=2)
         own = np.sum((along * self.shares * self._lift()) ** 2, axis=2)
         across = np.einsum("mgk,gpk->mgp", along * (self.shares**2 * self._lift()), self.directions, optimize=True)
         gram = own[:, :, np.newaxis] * np.eye(len(self.shares)) - across @ across.swapaxes(1, 2)
         trace, square = np.trace(gram, axis1=1, axis2=2), np.sum(gram**2, axis=(1, 2))
-        alone = np.any(hanging > HANGING * np.linalg.norm(over, axis=1)[:, np.newaxis], axis=1)
-        return np.where(alone | (square == 0), 0.0, trace**2 / np.where(square > 0, square, 1.0))
-
-    def _over(self, weights: Array) -> Array:
-        """Weights in the space of the triangle, shape (m, p)."""
-        return np.asarray(solve_triangular(self.whole, (weights / self.norms).T, trans="T").T)
+        return _ratio(trace, square, np.linalg.norm(hanging, axis=1), np.linalg.norm(over, axis=1))
 
     def _lift(self) -> Array:
         """What the residuals of each run are lifted by for the share that the fit took, shape (g, k)."""
         left = 1.0 - self.shares**2
         return np.where(left > SINGULAR, 1.0 / np.sqrt(np.where(left > SINGULAR, left, 1.0)), 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class ScatterAlong:
+    """Degrees of freedom of combinations of b given ones, as forms of their coefficients.
+
+    Attributes
+    ----------
+    enough : bool
+        Whether there are runs enough for any.
+    trace : array, shape (b, b)
+        Of second degree: the expected variance.
+    square : array, shape (b (b + 1) / 2,) * 2
+        Of fourth degree, in the products of two coefficients: half its variance.
+    whole : array, shape (b, p)
+    hanging : array, shape (b, k)
+        What rests on one run alone.
+    """
+
+    enough: bool
+    trace: Array
+    square: Array
+    whole: Array
+    hanging: Array
+
+    def freedom(self, coefficients: Array) -> Array:
+        """Degrees of freedom of each combination, shape (m,), of coefficients of shape (m, b)."""
+        if not self.enough:
+            return np.zeros(len(coefficients))
+        first, second = np.triu_indices(len(self.trace))
+        products = coefficients[:, first] * coefficients[:, second]
+        trace = np.einsum("mb,mb->m", coefficients @ self.trace, coefficients)
+        square = np.einsum("mb,mb->m", products @ self.square, products)
+        size = np.linalg.norm(coefficients @ self.whole, axis=1)
+        return _ratio(trace, square, np.linalg.norm(coefficients @ self.hanging, axis=1), size)
+
+
+def _ratio(trace: Array, square: Array, hanging: Array, size: Array) -> Array:
+    some = (square > 0) & (hanging <= HANGING * size)
+    return np.where(some, trace**2 / np.where(some, square, 1.0), 0.0)

@@ -53,7 +53,7 @@ from elastogeo.identification.question import (
     what_reciprocity_buys,
     with_question,
 )
-from elastogeo.identification.reciprocity import Reciprocity, reciprocal_sources, reciprocity
+from elastogeo.identification.reciprocity import Reciprocity, is_compliance, reciprocal_sources, reciprocity
 from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Response, Trace
 from elastogeo.identification.rollers.dynamometer import AgainstDynamometer, ComparedForce
 from elastogeo.identification.rollers.laws import LawChoice, LawScore
@@ -66,12 +66,12 @@ from elastogeo.identification.shared_structure import shared_harmonic
 from elastogeo.identification.static_tests.assessment import evaluate_static
 from elastogeo.identification.static_tests.cartesian import (
     CartesianCompliance,
-    Principal,
     Symmetry,
     cartesian_compliance,
     cartesian_from_vectors,
     cartesian_of,
 )
+from elastogeo.identification.static_tests.collinear import CollinearStiffness, Linear, StiffnessScrew, collinear_stiffness
 from elastogeo.identification.static_tests.drive_train import (
     OnAxis,
     OnAxisPart,
@@ -80,6 +80,7 @@ from elastogeo.identification.static_tests.drive_train import (
 )
 from elastogeo.identification.static_tests.hysteresis import StaticHysteresis, hysteresis
 from elastogeo.identification.static_tests.loading_branches import Branch, branches_of, turning_points
+from elastogeo.identification.static_tests.principal import Principal, principal_directions
 from elastogeo.identification.static_tests.result import (
     Cartesian,
     LoadedPlace,
@@ -119,6 +120,7 @@ __all__ = [
     "Change",
     "Check",
     "Circularity",
+    "CollinearStiffness",
     "ComparedForce",
     "Consistency",
     "Contribution",
@@ -138,6 +140,7 @@ __all__ = [
     "LawChoice",
     "LawScore",
     "Level",
+    "Linear",
     "LoadStep",
     "LoadedPlace",
     "LoadedRun",
@@ -164,6 +167,7 @@ __all__ = [
     "Step",
     "Stiffness",
     "StiffnessMap",
+    "StiffnessScrew",
     "Symmetry",
     "Systems",
     "TestPart",
@@ -186,6 +190,7 @@ __all__ = [
     "cartesian_from_vectors",
     "cartesian_of",
     "circularity",
+    "collinear_stiffness",
     "compare",
     "compare_models",
     "confounding_of",
@@ -205,6 +210,7 @@ __all__ = [
     "hysteresis",
     "identify",
     "identify_drives",
+    "is_compliance",
     "local_change",
     "local_estimates",
     "map_stiffness",
@@ -212,6 +218,7 @@ __all__ = [
     "moving_axes",
     "noise_of",
     "plain",
+    "principal_directions",
     "reciprocal_sources",
     "reciprocity",
     "retaining_order",

@@ -8,22 +8,35 @@ exists: nothing is stated, or, if a prior is asked for, a value by it, with the 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
 
 from elastogeo.equality import ByValue
-from elastogeo.estimate import Confounding, Solution, coverage_factor, effective_degrees_of_freedom
+from elastogeo.estimate import (
+    Confounding,
+    RunScatter,
+    ScatterAlong,
+    Solution,
+    coverage_factor,
+    effective_degrees_of_freedom,
+)
 from elastogeo.identification import Budget, Identification, plain, sources_of
 from elastogeo.machine import Array, Machine
 from elastogeo.observe import Observations
 from elastogeo.prediction.scales import parameter_scales
-from elastogeo.prediction.support import SUPPORTED, unsupported_share
+from elastogeo.prediction.support import SUPPORTED
 from elastogeo.prediction.virtual import functionals
 from elastogeo.sources import Source, select_sources
 
 Flags = np.ndarray[tuple[int], np.dtype[np.bool_]]
+
+_FEW = 12
+"""Functionals up to which the forms of their degrees of freedom take less than the runs themselves."""
+
+_ROWS = 20_000
+"""Functionals that are predicted at once: what bounds the memory."""
 
 _INDEPENDENT = 1e-10
 """Singular value, relative to the greatest, of retained combinations in scaled parameters that counts as one."""
@@ -70,6 +83,105 @@ class Predicted(ByValue):
 
     def __len__(self) -> int:
         return len(self.value)
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """What is known of b functionals, and so of all their combinations.
+
+    Attributes
+    ----------
+    value : array, shape (b,)
+    over : array, shape (b, r)
+        In the space in which the runs scatter.
+    systematic : array, shape (b, q)
+        By how much one standard uncertainty of each influence moves them.
+    freedoms : array, shape (q,)
+        Degrees of freedom of each influence.
+    seen, unseen : array, shape (b, k), (b, l)
+        What the tests see of them, and what they do not, in scaled parameters.
+    scatter : RunScatter or None
+        None where the runs are too few for an uncertainty.
+    along : ScatterAlong or None
+        Its forms, where the functionals are few.
+    """
+
+    value: Array
+    over: Array
+    systematic: Array
+    freedoms: Array
+    seen: Array
+    unseen: Array
+    scatter: RunScatter | None
+    along: ScatterAlong | None = None
+
+    def of(self, functionals: Array) -> Span:
+        """What is known of a few combinations, shape (c, b), as a span of its own."""
+        over = functionals @ self.over
+        few = self.scatter is not None and len(functionals) <= _FEW
+        return Span(
+            value=functionals @ self.value,
+            over=over,
+            systematic=functionals @ self.systematic,
+            freedoms=self.freedoms,
+            seen=_narrow(functionals @ self.seen),
+            unseen=_narrow(functionals @ self.unseen),
+            scatter=self.scatter,
+            along=self.scatter.along(over) if self.scatter is not None and few else None,
+        )
+
+    def predict(self, coefficients: Array, prior: bool = False) -> Predicted:
+        """The values of combinations, of coefficients of shape (m, b); see `Knowledge.predict`."""
+        blocks = range(0, len(coefficients), _ROWS) if len(coefficients) else (0,)
+        found = [self._predicted(coefficients[first : first + _ROWS], prior) for first in blocks]
+        return found[0] if len(found) == 1 else _joined(found)
+
+    def _predicted(self, coefficients: Array, prior: bool) -> Predicted:
+        seen, unseen = (np.sum((coefficients @ part) ** 2, axis=1) for part in (self.seen, self.unseen))
+        whole = seen + unseen
+        unsupported = np.sqrt(np.divide(unseen, whole, out=np.zeros_like(whole), where=whole > 0))
+        supported = unsupported < SUPPORTED
+        held = coefficients * (seen > SUPPORTED**2 * whole)[:, np.newaxis]
+        variance, freedom = self._variance(held)
+        unseen = unseen * ~supported
+        total = variance + unseen
+        known = np.isfinite(variance) & (supported | prior)
+        degrees = effective_degrees_of_freedom(
+            np.sqrt(np.column_stack([variance, unseen])), np.column_stack([freedom, np.full(len(freedom), np.inf)])
+        )
+        return Predicted(
+            value=np.where(supported | prior, held @ self.value, np.nan),
+            standard_uncertainty=np.where(known, np.sqrt(total), np.nan),
+            degrees_of_freedom=np.where(known, degrees, np.nan),
+            supported=supported,
+            unsupported=unsupported,
+            prior_share=np.divide(unseen, total, out=np.zeros(len(total)), where=known & (total > 0)),
+        )
+
+    def _variance(self, held: Array) -> tuple[Array, Array]:
+        """Variance of combinations and its degrees of freedom; NaN where the runs show none."""
+        if self.scatter is None:
+            none = np.full(len(held), np.nan)
+            return none, none
+        own = np.sum((held @ self.scatter.moved(self.over)) ** 2, axis=1)
+        degrees = self.along.freedom(held) if self.along else self.scatter.freedom(held @ self.over)
+        shown = (degrees > 1) | ~held.any(axis=1)
+        moved = held @ self.systematic
+        parts = np.column_stack([np.sqrt(own), np.abs(moved)])
+        freedoms = np.tile(self.freedoms, (len(held), 1))
+        effective = effective_degrees_of_freedom(parts, np.column_stack([np.maximum(degrees, 1.0), freedoms]))
+        return np.where(shown, own + np.sum(moved**2, axis=1), np.nan), effective
+
+
+def _joined(found: Sequence[Predicted]) -> Predicted:
+    return Predicted(
+        **{field.name: np.concatenate([getattr(one, field.name) for one in found]) for field in fields(Predicted)}
+    )
+
+
+def _narrow(rows: Array) -> Array:
+    """Rows of the same lengths and angles, with no more columns than there are rows."""
+    return rows if rows.shape[1] <= len(rows) else np.asarray(np.linalg.qr(rows.T)[1]).T
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,6 +264,23 @@ class Knowledge(ByValue):
         found[:, chosen] = functionals([self.sources[k] for k in chosen], self.machine, placed)
         return found
 
+    @cached_property
+    def span(self) -> Span:
+        """What is known of each parameter by itself, and so of any functional of all."""
+        seen, scales = self.seen, self.scales[:, np.newaxis]
+        chosen = [self.confounding.labels.index(label) for label in self.solution.labels]
+        onto = scales * (seen @ (seen / scales).T[:, chosen])
+        scatter = self.solution.scatter if self.by_run else None
+        return Span(
+            value=onto @ self.values,
+            over=onto if scatter is None else scatter.over(onto),
+            systematic=onto @ self.budget.systematic.T,
+            freedoms=self.budget.freedoms,
+            seen=scales * seen,
+            unseen=scales * (np.eye(len(seen)) - seen @ seen.T),
+            scatter=scatter,
+        )
+
     def predict(self, functional: Array, prior: bool = False) -> Predicted:
         """The values of functionals, with their uncertainty where the tests support them.
 
@@ -163,43 +292,7 @@ class Knowledge(ByValue):
             Whether what is not supported is given by the stated prior: each parameter zero, with a standard deviation of
             its scale, where no test sees it.
         """
-        functional = np.atleast_2d(functional)
-        unsupported = unsupported_share(functional, self.seen, self.scales)
-        supported = unsupported < SUPPORTED
-        scaled = functional * self.scales
-        along = scaled @ self.seen
-        along[np.linalg.norm(along, axis=1) < SUPPORTED * np.linalg.norm(scaled, axis=1)] = 0.0
-        chosen = [self.confounding.labels.index(label) for label in self.solution.labels]
-        weights = along @ (self.seen / self.scales[:, np.newaxis]).T[:, chosen]
-        variance, freedom = self._variance(weights)
-        unseen = np.sum((scaled - along @ self.seen.T) ** 2, axis=1) * ~supported
-        total = variance + unseen
-        known = np.isfinite(variance) & (supported | prior)
-        parts = np.sqrt(np.column_stack([variance, unseen]))
-        degrees = effective_degrees_of_freedom(parts, np.column_stack([freedom, np.full(len(freedom), np.inf)]))
-        share = np.divide(unseen, total, out=np.zeros(len(total)), where=known & (total > 0))
-        return Predicted(
-            value=np.where(supported | prior, weights @ self.values, np.nan),
-            standard_uncertainty=np.where(known, np.sqrt(total), np.nan),
-            degrees_of_freedom=np.where(known, degrees, np.nan),
-            supported=supported,
-            unsupported=unsupported,
-            prior_share=share,
-        )
-
-    def _variance(self, weights: Array) -> tuple[Array, Array]:
-        """Variance of combinations of the retained parameters, and its degrees of freedom; NaN where the runs show none."""
-        none = np.full(len(weights), np.nan)
-        scatter = self.solution.scatter
-        if scatter is None or not self.by_run:
-            return none, none
-        own, degrees = scatter.variance(weights), scatter.degrees_of_freedom(weights)
-        shown = (degrees > 1) | ~weights.any(axis=1)
-        moved = weights @ self.budget.systematic.T
-        parts = np.column_stack([np.sqrt(own), np.abs(moved)])
-        freedoms = np.tile(self.budget.freedoms, (len(weights), 1))
-        effective = effective_degrees_of_freedom(parts, np.column_stack([np.maximum(degrees, 1.0), freedoms]))
-        return np.where(shown, own + np.sum(moved**2, axis=1), np.nan), effective
+        return self.span.predict(np.atleast_2d(functional), prior)
 
 
 def knowledge_of(result: Identification) -> Knowledge:

@@ -4,16 +4,11 @@ Stands on the files of `identification` and the rooms below it.
 """
 
 from elastogeo.identification.static_tests.assessment import evaluate_static
-from elastogeo.identification.static_tests.cartesian import CartesianCompliance, Principal, Symmetry
-from elastogeo.identification.static_tests.collinear import (
-    Collinear,
-    CollinearStiffness,
-    StiffnessScrew,
-    collinear_stiffness,
-    collinear_stiffness_of,
-)
+from elastogeo.identification.static_tests.cartesian import CartesianCompliance, Symmetry
+from elastogeo.identification.static_tests.collinear import CollinearStiffness, Linear, StiffnessScrew, collinear_stiffness
 from elastogeo.identification.static_tests.drive_train import OnAxis, OnAxisPart, OnAxisRecord
 from elastogeo.identification.static_tests.hysteresis import StaticHysteresis, hysteresis
+from elastogeo.identification.static_tests.principal import Principal, principal_directions
 from elastogeo.identification.static_tests.result import (
     Cartesian,
     LoadedPlace,
@@ -28,8 +23,8 @@ from elastogeo.identification.static_tests.straight_line import StaticLine, stat
 __all__ = [
     "Cartesian",
     "CartesianCompliance",
-    "Collinear",
     "CollinearStiffness",
+    "Linear",
     "LoadStep",
     "LoadedPlace",
     "LoadedRun",
@@ -45,8 +40,8 @@ __all__ = [
     "TwistPlace",
     "TwistRun",
     "collinear_stiffness",
-    "collinear_stiffness_of",
     "evaluate_static",
     "hysteresis",
+    "principal_directions",
     "static_line",
 ]

@@ -22,9 +22,10 @@ from elastogeo.identification.identification import identify_observed
 from elastogeo.identification.question import with_stated
 from elastogeo.identification.result import Identification
 from elastogeo.identification.static_tests.by_run import Moved, moved_observations, widened
-from elastogeo.identification.static_tests.cartesian import CartesianCompliance, Principal, cartesian_of, with_influences
+from elastogeo.identification.static_tests.cartesian import CartesianCompliance, cartesian_of, with_influences
 from elastogeo.identification.static_tests.drive_train import FEEDBACKS, OnAxis, OnAxisRecord, where_in_the_drive
 from elastogeo.identification.static_tests.hysteresis import hysteresis
+from elastogeo.identification.static_tests.principal import Principal
 from elastogeo.identification.static_tests.result import (
     Cartesian,
     LoadedPlace,

@@ -29,6 +29,7 @@ from elastogeo.estimate import (
 )
 from elastogeo.identification.check import Check
 from elastogeo.identification.static_tests.by_run import Counted, solved_by_run
+from elastogeo.identification.static_tests.principal import Principal, principal_directions
 from elastogeo.machine import Array, Machine, loop_frames
 from elastogeo.observe import Observations
 
@@ -66,35 +67,6 @@ class Symmetry:
     differences: Array
     chi_squared: float
     probability: float
-
-
-@dataclass(frozen=True, slots=True)
-class Principal:
-    """A principal direction of the symmetric part of the compliance: a force along it moves the tool along it.
-
-    Attributes
-    ----------
-    direction : array, shape (3,)
-        Unit vector; its greatest component is positive.
-    direction_uncertainty : float [rad]
-        Standard uncertainty of its direction, to first order: of the greatest turn towards one of the others. Infinite
-        where two compliances do not differ: then every direction between the two is one.
-    compliance : Estimate [mm/N]
-    """
-
-    direction: Array
-    direction_uncertainty: float
-    compliance: Estimate
-
-    def stiffness(self) -> Estimate:
-        """Its inverse [N/mm].
-
-        Raises
-        ------
-        UnsupportedError
-            If the interval of the compliance holds zero.
-        """
-        return self.compliance.inverse()
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,17 +200,7 @@ class CartesianCompliance:
             If the compliance is not determined.
         """
         self._check_determined("principal directions")
-        values, vectors = np.linalg.eigh((self.compliance + self.compliance.T) / 2)
-        found = []
-        for k in (2, 1, 0):
-            v = vectors[:, k] * np.sign(vectors[np.argmax(np.abs(vectors[:, k])), k])
-            turns = []
-            for j in {0, 1, 2} - {k}:
-                apart = values[k] - values[j]
-                tilt = self._linear((np.outer(vectors[:, j], v) + np.outer(v, vectors[:, j])) / 2).standard_uncertainty
-                turns.append(tilt / abs(apart) if abs(apart) > 1e-12 * abs(values).max() else np.inf)
-            found.append(Principal(v, float(max(turns)), self._linear(np.outer(v, v))))
-        return tuple(found)
+        return principal_directions(self.compliance, self._linear)
 
     def checks(self) -> tuple[Check, ...]:
         """What is to be believed: all determined, symmetric within the uncertainty, and no force gaining energy."""

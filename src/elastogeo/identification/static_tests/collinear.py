@@ -17,47 +17,16 @@ from math import inf
 
 import numpy as np
 
-from elastogeo.errors import InputError, UnsupportedError
+from elastogeo.errors import InputError
 from elastogeo.estimate import Estimate
-from elastogeo.identification.question import sources_of
-from elastogeo.identification.reciprocity import ReciprocalSource, is_compliance
-from elastogeo.identification.result import Identification
-from elastogeo.machine import Array, carried_to, loop_frames
-from elastogeo.sources import Source
-
-SAME = 1e-9
-"""Of the greatest weight of a parameter: what differs by less is the same, or none."""
+from elastogeo.identification.static_tests.principal import Principal, principal_directions
+from elastogeo.machine import Array
 
 _REGULAR = 1e-9
 """Least eigenvalue, of the compliance scaled to unit diagonal, of a spring that gives way in every direction."""
 
 Linear = Callable[[Array], Estimate]
 """The estimate of `sum W C` for weights W of shape (6, 6)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Collinear:
-    """A direction in which a load and the displacement that it causes are collinear.
-
-    Attributes
-    ----------
-    direction : array, shape (3,)
-        Unit vector in the foundation; its greatest component is positive.
-    compliance : Estimate [mm/N or rad/(N mm)]
-    """
-
-    direction: Array
-    compliance: Estimate
-
-    def stiffness(self) -> Estimate:
-        """Its inverse [N/mm or N mm/rad].
-
-        Raises
-        ------
-        UnsupportedError
-            If the interval of the compliance holds zero.
-        """
-        return self.compliance.inverse()
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,9 +63,9 @@ class CollinearStiffness:
     compliance : array, shape (6, 6)
         Of the tool relative to the workpiece at the tool point, along the foundation's axes: symmetric (reciprocity); NaN
         where it is not determined, or nothing that could give way was asked for.
-    translational : tuple of Collinear
+    translational : tuple of Principal
         The softest first; in the greatest plane or space that is determined.
-    rotational : tuple of Collinear
+    rotational : tuple of Principal
     screws : tuple of StiffnessScrew
         The softest first, by `along`; empty unless the whole compliance is determined and gives way in every direction.
     commands : array, shape (n,) [mm, rad]
@@ -104,8 +73,8 @@ class CollinearStiffness:
     """
 
     compliance: Array
-    translational: tuple[Collinear, ...]
-    rotational: tuple[Collinear, ...]
+    translational: tuple[Principal, ...]
+    rotational: tuple[Principal, ...]
     screws: tuple[StiffnessScrew, ...]
     commands: Array
 
@@ -146,81 +115,19 @@ def collinear_stiffness(
     )
 
 
-def collinear_stiffness_of(result: Identification) -> CollinearStiffness:
-    """The collinear stiffness values that a result's joint compliances amount to, at the centre of its (first) test.
-
-    A sum of parameters that the test does not tell apart counts where the stiffness holds them in that very sum.
-
-    Raises
-    ------
-    UnsupportedError
-        If no joint compliance was identified, one changes with force, feed or travel, or compliance and geometry are not
-        separated.
-    """
-    compliances = _joint_compliances(result)
-    observed = next(iter(result.campaign.tests.values())).observations()[0]
-    machine, found, solution = result.campaign.machine, result.confounding, result.solution
-    frames = loop_frames(machine, observed.centre, observed.tool)
-    weights = np.zeros((len(found.labels), 6, 6))
-    for source in compliances:
-        frame, side = frames.carried_at(source.site[1])
-        J = np.vstack([carried_to(frame, frames.point, unit[np.newaxis], side) for unit in np.eye(6)])
-        weight = np.outer(J[:, source.component], J[:, source.load or 0])
-        whole = weight + weight.T if isinstance(source, ReciprocalSource) and source.mirror is not None else weight
-        weights[found.labels.index(source.name)] = (whole + whole.T) / 2
-    kept = [found.labels.index(name) for name in solution.labels]
-    held = np.tensordot(found.combinations.T, weights[kept], axes=1)
-    size = SAME * np.abs(weights).max(axis=(1, 2), initial=0.0, keepdims=True)
-    determined = (np.abs(held - weights) <= 1e3 * np.maximum(size, SAME * np.abs(held))).all(axis=0)
-    gives_way = (np.abs(weights) > size).any(axis=0)
-    values = np.tensordot(solution.values, weights[kept], axes=1)
-    rigid = ~np.diag(gives_way)
-    values[~determined | rigid | rigid[:, np.newaxis]] = np.nan
-    return collinear_stiffness(values, _linear(result, weights[kept]), observed.centre)
-
-
-def _joint_compliances(result: Identification) -> tuple[Source, ...]:
-    elastic = [source for source in sources_of(result.campaign) if source.elastic]
-    other = [source.name for source in elastic if not is_compliance(source)]
-    if other or not elastic:
-        why = f"{', '.join(other[:3])} is no constant compliance of a joint" if other else "no compliance was asked for"
-        raise UnsupportedError(f"the stiffness at the tool adds up constant compliances of joints, and {why}")
-    if not all(p.separated for p in result.parameters if p.elastic):
-        raise UnsupportedError("compliance and geometry are not separated, so that no stiffness follows; add a second force")
-    return tuple(elastic)
-
-
-def _linear(result: Identification, weights: Array) -> Linear:
-    """The estimate of a linear function of the elements, by the uncertainty of the retained parameters."""
-    solution, budget = result.solution, result.budget
-    shown = np.array([result.by_run and name not in result.unshown for name in solution.labels])
-    covariance = budget.covariance
-
-    def estimate(chosen: Array) -> Estimate:
-        w = np.tensordot(weights, chosen, axes=([1, 2], [0, 1]))
-        used = np.abs(w) > SAME * np.abs(weights).max(axis=(1, 2), initial=0.0)
-        value = float(w @ solution.values)
-        if not shown[used].all():
-            return Estimate(value, inf)
-        degrees = min(map(float, budget.degrees_of_freedom[used]), default=inf)
-        return Estimate(value, float(np.sqrt(max(float(w @ covariance @ w), 0.0))), degrees)
-
-    return estimate
-
-
-def _principal(C: Array, axes: tuple[int, ...], estimate: Linear) -> tuple[Collinear, ...]:
+def _principal(C: Array, axes: tuple[int, ...], estimate: Linear) -> tuple[Principal, ...]:
     """Principal directions of the greatest determined part of a block, the softest first."""
     parts = [part for size in (3, 2, 1) for part in combinations(axes, size) if np.isfinite(C[np.ix_(part, part)]).all()]
     if not parts:
         return ()
-    part = parts[0]
-    vectors = np.linalg.eigh(C[np.ix_(part, part)])[1]
-    found = []
-    for k in range(len(part))[::-1]:
-        v = np.zeros(6)
-        v[list(part)] = vectors[:, k] * np.sign(vectors[np.argmax(np.abs(vectors[:, k])), k])
-        found.append(Collinear(v[list(axes)], estimate(np.outer(v, v))))
-    return tuple(found)
+    part = np.array(parts[0])
+
+    def of_part(weights: Array) -> Estimate:
+        whole = np.zeros((6, 6))
+        whole[np.ix_(part, part)] = weights
+        return estimate(whole)
+
+    return principal_directions(C[np.ix_(part, part)], of_part, tuple(part % 3))
 
 
 def _screws(C: Array) -> tuple[StiffnessScrew, ...]:

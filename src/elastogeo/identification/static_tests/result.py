@@ -9,9 +9,10 @@ from elastogeo.estimate import Estimate
 from elastogeo.identification.check import Check
 from elastogeo.identification.result import Identification
 from elastogeo.identification.static_tests.by_run import Counted
-from elastogeo.identification.static_tests.cartesian import CartesianCompliance, Principal, Symmetry
+from elastogeo.identification.static_tests.cartesian import CartesianCompliance, Symmetry
 from elastogeo.identification.static_tests.drive_train import OnAxis
 from elastogeo.identification.static_tests.hysteresis import StaticHysteresis
+from elastogeo.identification.static_tests.principal import Principal
 from elastogeo.identification.static_tests.straight_line import StaticLine
 from elastogeo.machine import Array
 from elastogeo.observe import SensorTwist

@@ -8,14 +8,9 @@ from typing import Any
 
 from elastogeo.errors import UnsupportedError
 from elastogeo.estimate import Estimate
-from elastogeo.identification import Identification
-from elastogeo.identification.static_tests import (
-    Collinear,
-    CollinearStiffness,
-    StiffnessScrew,
-    collinear_stiffness_of,
-)
+from elastogeo.identification import CollinearStiffness, Identification, Principal, StiffnessScrew
 from elastogeo.machine import Array
+from elastogeo.prediction import collinear_stiffness_of
 from elastogeo.report.document import UM, uncertainty_entries
 from elastogeo.report.numbers import UNKNOWN, pretty, significant, value_with_uncertainty
 from elastogeo.report.view import Section, Table
@@ -75,12 +70,12 @@ def _found(result: Identification) -> CollinearStiffness | None:
     return found if found.translational or found.rotational else None
 
 
-def _entry(one: Collinear, scale: float, unit: str) -> dict[str, Any]:
+def _entry(one: Principal, scale: float, unit: str) -> dict[str, Any]:
     value = {"value": one.compliance.value * scale, **uncertainty_entries(one.compliance, scale)}
     return {"direction": one.direction.tolist(), f"compliance_{unit}": value}
 
 
-def _table(values: Sequence[Collinear], title: str, unit: str, scale: float) -> Iterator[Table]:
+def _table(values: Sequence[Principal], title: str, unit: str, scale: float) -> Iterator[Table]:
     if values:
         rows = tuple((_vector(one.direction), pretty(_stiffness(one, scale))) for one in values)
         yield Table(("direction", f"stiffness ± U (95 %) [{unit}]"), rows, words=(0,), title=f"{title}, the softest first")
@@ -105,7 +100,7 @@ def _screws(screws: Sequence[StiffnessScrew]) -> Table:
     )
 
 
-def _stiffness(one: Collinear, scale: float) -> str:
+def _stiffness(one: Principal, scale: float) -> str:
     """With its uncertainty, where one is known; unknown where the compliance may as well be zero."""
     try:
         stiffness: Estimate = one.stiffness()
