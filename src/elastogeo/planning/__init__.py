@@ -2,5 +2,54 @@
 
 from elastogeo.planning.ceilings import Ceiling, Pair, ceiling
 from elastogeo.planning.families import BAR, PROBES, SIX, FamilyCeiling, family_ceiling, family_of
+from elastogeo.planning.information import Unknowns, unknowns, whitened
+from elastogeo.planning.noise import ReadingNoise
+from elastogeo.planning.offers.candidate import Candidate
+from elastogeo.planning.offers.candidates import candidates
+from elastogeo.planning.offers.clearance import Clearance
+from elastogeo.planning.offers.means import Means
+from elastogeo.planning.offers.proposal import proposals, proposes
+from elastogeo.planning.plan import GOALS, GoalName, plan
+from elastogeo.planning.result import (
+    ALONE,
+    IN_A_SUM,
+    UNSEEN,
+    Expectation,
+    NextBest,
+    Plan,
+    PlannedTest,
+    ToolSupport,
+)
 
-__all__ = ["BAR", "PROBES", "SIX", "Ceiling", "FamilyCeiling", "Pair", "ceiling", "family_ceiling", "family_of"]
+__all__ = [
+    "ALONE",
+    "BAR",
+    "GOALS",
+    "IN_A_SUM",
+    "PROBES",
+    "SIX",
+    "UNSEEN",
+    "Candidate",
+    "Ceiling",
+    "Clearance",
+    "Expectation",
+    "FamilyCeiling",
+    "GoalName",
+    "Means",
+    "NextBest",
+    "Pair",
+    "Plan",
+    "PlannedTest",
+    "ReadingNoise",
+    "ToolSupport",
+    "Unknowns",
+    "candidates",
+    "ceiling",
+    "family_ceiling",
+    "family_of",
+    "plan",
+    "proposals",
+    "proposes",
+    "unknowns",
+    "whitened",
+]

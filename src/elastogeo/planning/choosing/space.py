@@ -1,0 +1,100 @@
+"""The directions that any of the candidates sees: candidates, prior and what is asked for, projected on them once.
+
+Everything is in scaled parameters, whose prior has unit standard deviation in every direction (the stated prior: every
+parameter has a standard deviation of its scale). What no candidate sees keeps its prior whatever is chosen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from elastogeo.errors import UnsupportedError
+from elastogeo.machine import Array
+
+RANK = 1e-9
+"""Singular values smaller than this part of the greatest are rounding error: nothing was found within four orders of it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Space:
+    """The row space of all candidates, and each candidate in it.
+
+    Attributes
+    ----------
+    basis : array, shape (p, r)
+        Orthonormal, in scaled parameters.
+    rows : array, shape (n, q, r)
+        Of each candidate, whitened; short ones are filled with zeros.
+    kept : array, shape (r, r)
+        Information of the tests that were made already.
+    prior_information : float
+        Of every direction: 1 for the stated prior.
+    """
+
+    basis: Array
+    rows: Array
+    kept: Array
+    prior_information: float = 1.0
+
+    @property
+    def rank(self) -> int:
+        """Directions that all candidates and the tests already made see together."""
+        return self.basis.shape[1]
+
+    @property
+    def prior(self) -> Array:
+        """Information of the stated prior and the tests that were made, shape (r, r)."""
+        return self.prior_information * np.eye(self.rank) + self.kept
+
+    def projected(self, functionals: Array) -> tuple[Array, Array]:
+        """Functionals in scaled parameters, shape (m, p), in the space, shape (m, r), and the variance outside it, (m,)."""
+        inside = functionals @ self.basis
+        outside = np.sum((functionals - inside @ self.basis.T) ** 2, axis=1)
+        return inside, np.asarray(outside)
+
+
+def space_of(candidates: Sequence[Array], kept: Sequence[Array]) -> Space:
+    """The space of candidates.
+
+    Parameters
+    ----------
+    candidates, kept : sequence of array, shape (q, p)
+        What each tells, as `whitened` gives it.
+
+    Raises
+    ------
+    UnsupportedError
+        If none tells anything.
+    """
+    every = np.vstack([*candidates, *kept])
+    basis = row_space(every)
+    if not basis.shape[1]:
+        raise UnsupportedError(
+            "none of the candidates tells anything of a compliance: it takes two force levels at the same poses"
+        )
+    most = max(map(len, candidates))
+    rows = np.zeros((len(candidates), most, basis.shape[1]))
+    for k, own in enumerate(candidates):
+        rows[k, : len(own)] = own @ basis
+    known = np.vstack([*kept, np.zeros((1, len(basis)))]) @ basis
+    return Space(basis, rows, known.T @ known)
+
+
+def row_space(rows: Array) -> Array:
+    """Orthonormal basis of the row space, shape (p, r).
+
+    LAPACK's `gesdd` once did not converge on finite rows; `gesvd` does where it does not.
+    """
+    if not rows.size or not rows.any():
+        return np.zeros((rows.shape[1], 0))
+    triangle = np.linalg.qr(rows, mode="r") if len(rows) > rows.shape[1] else rows
+    try:
+        _, values, turns = np.linalg.svd(triangle, full_matrices=False)
+    except np.linalg.LinAlgError:
+        from scipy.linalg import svd  # here: hardly ever needed
+
+        _, values, turns = svd(triangle, full_matrices=False, lapack_driver="gesvd")
+    return np.asarray(turns[values > RANK * values[0]].T)

@@ -1,0 +1,175 @@
+"""What candidates tell, worked out once; the choice among them; what the chosen ones will tell."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+
+from elastogeo.errors import UnsupportedError
+from elastogeo.machine import Array
+from elastogeo.observe import Campaign
+from elastogeo.planning.offers.candidate import Candidate
+from elastogeo.planning.choosing.choice import Budget, Progress, chosen, covariance_of, extended
+from elastogeo.planning.expectations import data_uncertainty
+from elastogeo.planning.choosing.goals import Goal, Information, MeanVariance, NearlyWorst, Parameters, Worst
+from elastogeo.planning.information import MOST_ROWS, Unknowns, rows_of, whitened
+from elastogeo.planning.made import at_planned_poses
+from elastogeo.planning.offers.means import Means
+from elastogeo.planning.noise import ReadingNoise
+from elastogeo.planning.result import ToolSupport
+from elastogeo.planning.choosing.space import Space, row_space, space_of
+from elastogeo.planning.workspace import Workspace, workspace
+from elastogeo.prediction import SUPPORTED, unsupported_share
+
+CHOOSING_POSES, JUDGING_POSES = 48, 150
+"""Poses of all tools together while choosing; of each tool, others, to judge what was chosen."""
+
+MOST_TESTS = 60
+"""Tests after which nothing more is added to support the workspace."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Study:
+    """What candidates tell of one machine.
+
+    Attributes
+    ----------
+    means : Means
+    asked : Unknowns
+        p parameters.
+    offered : tuple of Candidate
+    rows : tuple of array, shape (q, p)
+        What each candidate tells, all of it.
+    made : tuple of array, shape (q, p)
+        What the tests that were made already tell.
+    space : Space
+        Of the candidates, each with the rows that tell most.
+    choosing, judging : Workspace
+        Poses to choose by, and others to judge by.
+    """
+
+    means: Means
+    asked: Unknowns
+    offered: tuple[Candidate, ...]
+    rows: tuple[Array, ...]
+    made: tuple[Array, ...]
+    space: Space
+    choosing: Workspace
+    judging: Workspace
+
+    @property
+    def minutes(self) -> Array:
+        """Of each candidate."""
+        return np.array([one.minutes for one in self.offered])
+
+    def told(self, taken: Sequence[int]) -> Array:
+        """Rows of chosen candidates and of the tests already made, shape (m, p)."""
+        return np.vstack([np.zeros((1, len(self.asked.sources))), *self.made, *(self.rows[k] for k in taken)])
+
+    def supported(self, taken: Sequence[int]) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        """Whether each functional of the judging workspace is supported, shape (m,)."""
+        seen = row_space(self.told(taken))
+        scales = np.ones(len(self.asked.sources))
+        return np.asarray(unsupported_share(self.judging.functionals, seen, scales) < SUPPORTED)
+
+    def worst_with_prior(self, taken: Sequence[int]) -> float:
+        """Greatest standard uncertainty [mm/N] in the judging workspace with the stated prior."""
+        inside, outside = self.space.projected(self.judging.functionals)
+        variances = Worst(inside, outside).variances(covariance_of(self.space, taken))
+        return float(np.sqrt(variances.max()))
+
+
+def study_of(
+    means: Means, asked: Unknowns, offered: Sequence[Candidate], made: Campaign | None, noise: ReadingNoise, seed: int
+) -> Study:
+    """What candidates tell, and what it is held against."""
+    rows = whitened([one.test for one in offered], asked, noise)
+    done = [] if made is None else [at_planned_poses(test, means.readings) for test in made.tests.values()]
+    kept = rows_of(done, asked, noise)
+    return Study(
+        means=means,
+        asked=asked,
+        offered=tuple(offered),
+        rows=tuple(rows),
+        made=tuple(kept),
+        space=space_of([own[:MOST_ROWS] for own in rows], kept),
+        choosing=workspace(means, asked, max(CHOOSING_POSES // len(means.tool_points), 12), seed),
+        judging=workspace(means, asked, JUDGING_POSES, seed + 1),
+    )
+
+
+def goals_of(study: Study, goal: str, names: Sequence[str]) -> tuple[Goal, ...]:
+    """The goals to improve a plan for, one after the other."""
+    if goal == "information":
+        return (Information(),)
+    if goal == "parameters":
+        at = [study.asked.names.index(name) for name in names] or list(range(len(study.asked.names)))
+        return (Parameters(*study.space.projected(np.eye(len(study.asked.names))[at])),)
+    inside, outside = study.space.projected(study.choosing.functionals)
+    return MeanVariance(inside, outside), NearlyWorst(inside, outside), Worst(inside, outside)
+
+
+def chosen_of(
+    study: Study, goal: str, names: Sequence[str], tests: int | None, minutes: float | None, progress: Progress
+) -> list[int]:
+    """The candidates to take; with no budget, as many as support the workspace.
+
+    Raises
+    ------
+    UnsupportedError
+        If no candidate fits into the minutes, or all together do not support the workspace.
+    """
+    if tests is None and minutes is None:
+        tests = tests_to_support(study, [])
+        if tests is None:
+            raise UnsupportedError(
+                f"all {len(study.offered)} candidates together do not support the compliance everywhere in the volume for the "
+                f"tools asked for; say how many tests, draw more candidates, or let rotary axes move"
+            )
+    budget = Budget(tests, inf if minutes is None else minutes)
+    taken = chosen(study.space, goals_of(study, goal, names), study.minutes, budget, progress=progress)
+    if not taken:
+        raise UnsupportedError(
+            f"no test fits into {minutes:g} minutes; the shortest takes {study.minutes.min():.0f}: plan more time"
+        )
+    return taken
+
+
+def tests_to_support(study: Study, taken: Sequence[int], tool: int | None = None) -> int | None:
+    """How many tests, the taken ones first, support the workspace (of one tool); None if the candidates cannot."""
+    here = np.full(len(study.judging.tool), True) if tool is None else study.judging.tool == tool
+    everything = study.supported(range(len(study.offered)))
+    if not everything[here].all():
+        return None
+    for count, so_far in enumerate(extended(study.space, taken, study.minutes, MOST_TESTS), start=len(taken)):
+        if count and study.supported(so_far)[here].all():
+            return count
+    return None
+
+
+def support_of(study: Study, taken: Sequence[int]) -> tuple[ToolSupport, ...]:
+    """What the chosen tests support, tool by tool."""
+    supported, rows = study.supported(taken), study.told(taken)
+    uncertainty = data_uncertainty(rows, study.judging.functionals)
+    inside, outside = study.space.projected(study.judging.functionals)
+    with_prior = np.sqrt(Worst(inside, outside).variances(covariance_of(study.space, taken)))
+    found = []
+    for k, tool in enumerate(study.means.tool_points):
+        here = study.judging.tool == k
+        known = np.flatnonzero(here & supported)
+        at = int(known[np.argmax(uncertainty[known])]) if len(known) else int(np.argmax(np.where(here, with_prior, -1.0)))
+        found.append(
+            ToolSupport(
+                tool=tool,
+                share=float(supported[here].mean()),
+                median=float(np.median(uncertainty[known])) if len(known) else None,
+                worst=float(uncertainty[at]) if len(known) else None,
+                worst_with_prior=float(with_prior[here].max()),
+                worst_at=dict(zip(study.means.machine.axes, map(float, study.judging.commands[at]), strict=True)),
+                tests_needed=tests_to_support(study, taken, k),
+            )
+        )
+    return tuple(found)
