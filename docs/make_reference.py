@@ -32,7 +32,7 @@ GROUPS = {
         "identify_drives", "calibrate",
     ),
     "Before and after a test": (
-        "compensate",
+        "plan", "compensate",
     ),
     "What comes back": ("Result", "Estimate", "MachineTest", "Campaign", "Machine"),
     "What may go wrong": ("ElastogeoError", "InputError", "UnsupportedError"),

@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     )
     from elastogeo.machine import Machine
     from elastogeo.observe import Campaign, MachineTest
+    from elastogeo.planning import plan
     from elastogeo.prediction import compensate
     from elastogeo.result import Result
 
@@ -78,6 +79,7 @@ _HOME = {
     "machines": "formats",
     "map_stiffness": "identification",
     "new_test": "formats",
+    "plan": "planning",
     "read_campaign": "formats",
     "read_drives": "formats",
     "read_log": "formats",
@@ -113,6 +115,7 @@ __all__ = [
     "machines",
     "map_stiffness",
     "new_test",
+    "plan",
     "read_campaign",
     "read_drives",
     "read_log",

@@ -9,7 +9,7 @@ from elastogeo.planning.offers.candidates import candidates
 from elastogeo.planning.offers.clearance import Clearance
 from elastogeo.planning.offers.means import Means
 from elastogeo.planning.offers.proposal import proposals, proposes
-from elastogeo.planning.plan import GOALS, GoalName, plan
+from elastogeo.planning.plan import GOALS, plan
 from elastogeo.planning.result import (
     ALONE,
     IN_A_SUM,
@@ -34,7 +34,6 @@ __all__ = [
     "Clearance",
     "Expectation",
     "FamilyCeiling",
-    "GoalName",
     "Means",
     "NextBest",
     "Pair",

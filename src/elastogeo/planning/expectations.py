@@ -10,9 +10,9 @@ from elastogeo.estimate import Confounding, Factor, confounding
 from elastogeo.identification import retaining_order
 from elastogeo.machine import Array
 from elastogeo.observe import MachineTest
+from elastogeo.planning.choosing.space import RANK
 from elastogeo.planning.information import Unknowns
 from elastogeo.planning.result import ALONE, IN_A_SUM, UNSEEN, Expectation
-from elastogeo.planning.choosing.space import RANK
 
 NO_READING = 1e-10
 """Columns this much shorter than the longest, in scaled parameters, are rounding error."""

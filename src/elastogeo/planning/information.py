@@ -112,14 +112,10 @@ def rows_of(
     set_up = select_sources(asked.machine, SET_UP)
     sizes = np.concatenate([asked.scales, np.full(len(set_up), noise.set_up)])
     designs = _designs((*asked.sources, *set_up), sizes, asked.machine, [run for runs in observed for run in runs])
-    return [
-        _compressed(_test_rows(runs, [next(designs) for _ in runs], asked.nominal, noise), most) for runs in observed
-    ]
+    return [_compressed(_test_rows(runs, [next(designs) for _ in runs], asked.nominal, noise), most) for runs in observed]
 
 
-def _designs(
-    sources: Sequence[Source], sizes: Array, machine: Machine, runs: Sequence[Observations]
-) -> Iterator[Array]:
+def _designs(sources: Sequence[Source], sizes: Array, machine: Machine, runs: Sequence[Observations]) -> Iterator[Array]:
     """The design of each run, shape (m, p), per size of each source: runs that can be are made together.
 
     A compliance looks at poses, directions and loads alone, so runs of one tool are one table of observations.
@@ -136,13 +132,24 @@ def _designs(
 
 
 def _one_table(runs: Sequence[Observations]) -> Observations:
-    first = runs[0]
-    stacked = {
-        name: np.asfortranarray(np.concatenate([getattr(run, name) for run in runs]))
-        for name in ("pose", "commands", "velocity", "direction", "wrench", "reading", "correction")
-    }
+    def stacked(name: str) -> Array:
+        return np.asfortranarray(np.concatenate([getattr(run, name) for run in runs]))
+
     return replace(
-        first, **stacked, acceleration=None, influences=(), sense=None, nominal=None, workpiece=np.zeros(3), length=np.inf
+        runs[0],
+        pose=stacked("pose"),
+        commands=stacked("commands"),
+        velocity=stacked("velocity"),
+        direction=stacked("direction"),
+        wrench=stacked("wrench"),
+        reading=stacked("reading"),
+        correction=stacked("correction"),
+        acceleration=None,
+        influences=(),
+        sense=None,
+        nominal=None,
+        workpiece=np.zeros(3),
+        length=np.inf,
     )
 
 

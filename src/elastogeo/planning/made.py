@@ -16,8 +16,8 @@ _TURN = 2 * np.pi
 def at_planned_poses(test: MachineTest, readings: int) -> tuple[Observations, ...]:
     """The observations of a test that was made, no denser than those of a planned one.
 
-    Runs around a circle are taken at evenly spaced angles that all of them reach, each with the poses of the first run: their
-    angles differ by chance, and what is the same at a pose must be seen to be.
+    Runs around a circle are taken at evenly spaced angles that all of them reach, each with the poses of the first run:
+    their angles differ by chance, and what is the same at a pose must be seen to be.
 
     Parameters
     ----------
@@ -48,8 +48,12 @@ def _nearest(angle: Array, readings: int) -> tuple[np.ndarray[tuple[int], np.dty
     return at, apart[np.arange(readings), at]
 
 
-def _with_loads_of(first: Observations, run: Observations, at: Sequence[int] | np.ndarray[tuple[int], np.dtype[np.intp]]) -> Observations:
+def _with_loads_of(
+    first: Observations, run: Observations, at: Sequence[int] | np.ndarray[tuple[int], np.dtype[np.intp]]
+) -> Observations:
     """The first run's poses with the force of another run, along the first run's directions."""
     size = np.linalg.norm(run.wrench[at, :3], axis=1)
     push = np.sign(np.sum(run.wrench[at, :3] * run.direction[at, :3], axis=1))
-    return replace(first, run=run.run, force=run.force, wrench=np.asfortranarray((push * size)[:, np.newaxis] * first.direction))
+    return replace(
+        first, run=run.run, force=run.force, wrench=np.asfortranarray((push * size)[:, np.newaxis] * first.direction)
+    )

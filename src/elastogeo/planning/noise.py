@@ -20,7 +20,7 @@ class ReadingNoise:
     angle : float [rad]
         Of a reading of an angle.
     set_up : float [mm]
-        Standard deviation, from run to run, of each coordinate of the centre and of the length of the bar (zero of a sensor).
+        Standard deviation, from run to run, of each coordinate of the centre, and of the length of a bar or a sensor's zero.
     force : float
         Relative standard deviation of the force from run to run. **Not its calibration:** what is wrong in all runs alike no
         plan removes; it comes on top, in proportion to the compliance.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import Literal
 
 import numpy as np
 
@@ -12,33 +11,33 @@ from elastogeo.errors import InputError, several
 from elastogeo.identification import reciprocal_sources
 from elastogeo.machine import Machine, Point
 from elastogeo.observe import Askable, Campaign, campaign_of
-from elastogeo.planning.offers.candidate import Candidate
-from elastogeo.planning.offers.candidates import candidates
 from elastogeo.planning.choosing.choice import covariance_of
+from elastogeo.planning.choosing.space import row_space
 from elastogeo.planning.expectations import expectations, weak_directions
 from elastogeo.planning.information import unknowns
-from elastogeo.planning.offers.means import Means
 from elastogeo.planning.noise import ReadingNoise
+from elastogeo.planning.offers.candidate import Candidate
+from elastogeo.planning.offers.candidates import candidates
+from elastogeo.planning.offers.means import Means
 from elastogeo.planning.order import in_order_of_doing
 from elastogeo.planning.result import NextBest, Plan, PlannedTest
-from elastogeo.planning.choosing.space import row_space
 from elastogeo.planning.study import Study, chosen_of, goals_of, study_of, support_of
 from elastogeo.planning.verdict import verdict_of
 from elastogeo.sources import select_sources
 
-GoalName = Literal["workspace", "parameters", "information"]
-GOALS: tuple[GoalName, ...] = ("workspace", "parameters", "information")
+GOALS = ("workspace", "parameters", "information")
 
 
 def plan(
     machine: Machine | Means,
     tests: int | None = None,
     minutes: float | None = None,
-    goal: GoalName = "workspace",
+    goal: str = "workspace",
     parameters: str | Sequence[str] = (),
     made: Askable | None = None,
     instruments: Sequence[str] = ("loaded-ball-bar",),
     tools: Sequence[Point] = (),
+    tool_lengths: Sequence[float] = (),
     forces: Sequence[float] = (),
     count: int = 400,
     noise: ReadingNoise | None = None,
@@ -67,7 +66,9 @@ def plan(
     instruments : sequence of str
         That there are, under the names that test files use.
     tools : sequence of 3-vector [mm], optional
-        Tool points that will be used; the machine's own if none is given.
+        Tool points that will be used, in the frame of the last carriage; the machine's own if none is given.
+    tool_lengths : sequence of float [mm], optional
+        The same as lengths along -Z of that frame.
     forces : sequence of float [N], optional
         Force levels of every test, two at least.
     count : int
@@ -94,7 +95,7 @@ def plan(
     UnsupportedError
         If no test fits into the travel, or none tells anything.
     """
-    means = _means(machine, tools, forces)
+    means = _means(machine, tools, tool_lengths, forces)
     names = _named(means.machine, parameters, reciprocal)
     goal = "parameters" if names else goal
     _check(tests, minutes, goal)
@@ -163,9 +164,11 @@ def _next_best(study: Study, goal: str, names: Sequence[str], order: Sequence[in
     )
 
 
-def _means(machine: Machine | Means, tools: Sequence[Point], forces: Sequence[float]) -> Means:
+def _means(machine: Machine | Means, tools: Sequence[Point], lengths: Sequence[float], forces: Sequence[float]) -> Means:
     means = machine if isinstance(machine, Means) else Means(machine)
-    means = replace(means, tools=tuple(tools)) if tools else means
+    x, y, _ = means.machine.tool
+    points: list[Point] = [*tools, *((x, y, -float(length)) for length in lengths)]
+    means = replace(means, tools=tuple(points)) if points else means
     return replace(means, forces=tuple(forces)) if forces else means
 
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from elastogeo.identification import Check
 from elastogeo.machine import Point
 from elastogeo.observe import Campaign
+from elastogeo.planning.noise import ReadingNoise
 from elastogeo.planning.offers.candidate import Candidate
 from elastogeo.planning.offers.means import Means
-from elastogeo.planning.noise import ReadingNoise
 from elastogeo.result import Result
 
 ALONE, IN_A_SUM, UNSEEN = "alone", "sum", "unseen"

@@ -11,16 +11,16 @@ import numpy as np
 from elastogeo.errors import UnsupportedError
 from elastogeo.machine import Array
 from elastogeo.observe import Campaign
-from elastogeo.planning.offers.candidate import Candidate
 from elastogeo.planning.choosing.choice import Budget, Progress, chosen, covariance_of, extended
-from elastogeo.planning.expectations import data_uncertainty
 from elastogeo.planning.choosing.goals import Goal, Information, MeanVariance, NearlyWorst, Parameters, Worst
+from elastogeo.planning.choosing.space import Space, row_space, space_of
+from elastogeo.planning.expectations import data_uncertainty
 from elastogeo.planning.information import MOST_ROWS, Unknowns, rows_of, whitened
 from elastogeo.planning.made import at_planned_poses
-from elastogeo.planning.offers.means import Means
 from elastogeo.planning.noise import ReadingNoise
+from elastogeo.planning.offers.candidate import Candidate
+from elastogeo.planning.offers.means import Means
 from elastogeo.planning.result import ToolSupport
-from elastogeo.planning.choosing.space import Space, row_space, space_of
 from elastogeo.planning.workspace import Workspace, workspace
 from elastogeo.prediction import SUPPORTED, unsupported_share
 
@@ -123,11 +123,11 @@ def chosen_of(
         If no candidate fits into the minutes, or all together do not support the workspace.
     """
     if tests is None and minutes is None:
-        tests = tests_to_support(study, [])
+        tests = needed_to_support(study, [], None)
         if tests is None:
             raise UnsupportedError(
-                f"all {len(study.offered)} candidates together do not support the compliance everywhere in the volume for the "
-                f"tools asked for; say how many tests, draw more candidates, or let rotary axes move"
+                f"all {len(study.offered)} candidates together do not support the compliance everywhere in the volume for "
+                f"the tools asked for; say how many tests, draw more candidates, or let rotary axes move"
             )
     budget = Budget(tests, inf if minutes is None else minutes)
     taken = chosen(study.space, goals_of(study, goal, names), study.minutes, budget, progress=progress)
@@ -138,7 +138,7 @@ def chosen_of(
     return taken
 
 
-def tests_to_support(study: Study, taken: Sequence[int], tool: int | None = None) -> int | None:
+def needed_to_support(study: Study, taken: Sequence[int], tool: int | None) -> int | None:
     """How many tests, the taken ones first, support the workspace (of one tool); None if the candidates cannot."""
     here = np.full(len(study.judging.tool), True) if tool is None else study.judging.tool == tool
     everything = study.supported(range(len(study.offered)))
@@ -169,7 +169,7 @@ def support_of(study: Study, taken: Sequence[int]) -> tuple[ToolSupport, ...]:
                 worst=float(uncertainty[at]) if len(known) else None,
                 worst_with_prior=float(with_prior[here].max()),
                 worst_at=dict(zip(study.means.machine.axes, map(float, study.judging.commands[at]), strict=True)),
-                tests_needed=tests_to_support(study, taken, k),
+                tests_needed=needed_to_support(study, taken, k),
             )
         )
     return tuple(found)

@@ -156,7 +156,8 @@ def _exchanged(space: Space, goal: Goal, minutes: Array, budget: Budget, taken: 
 
 def _in_order(space: Space, goal: Goal, taken: Sequence[int]) -> list[int]:
     """The same, the one first that does best alone, then the best beside it."""
-    left, found = list(taken), []
+    left = list(taken)
+    found: list[int] = []
     while left:
         scores = goal.scores(covariance_of(space, found), space.rows[left])
         found.append(left.pop(int(np.argmax(scores))))

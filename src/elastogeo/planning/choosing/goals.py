@@ -63,7 +63,7 @@ class Information(Goal):
     def scores(self, covariance: Array, rows: Array) -> Array:
         """With each candidate added, shape (n,)."""
         _, diagonal = taken_off(covariance, rows)
-        return self.score(covariance) + 2 * np.log(diagonal).sum(axis=1)
+        return np.asarray(self.score(covariance) + 2 * np.log(diagonal).sum(axis=1))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,7 +126,7 @@ class MeanVariance(Variances):
         """With each candidate added, shape (n,): without the variance of each functional."""
         W, _ = taken_off(covariance, rows)
         moment = self.functionals.T @ self.functionals / len(self.functionals)
-        return self.score(covariance) + np.einsum("nqr,nqr->n", W @ moment, W)
+        return np.asarray(self.score(covariance) + np.einsum("nqr,nqr->n", W @ moment, W))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -42,7 +42,7 @@ class Space:
     @property
     def rank(self) -> int:
         """Directions that all candidates and the tests already made see together."""
-        return self.basis.shape[1]
+        return int(self.basis.shape[1])
 
     @property
     def prior(self) -> Array:

@@ -45,13 +45,13 @@ def candidates(
         own: list[Candidate] = []
         for tried, draft in enumerate(proposal_of(instrument)(means, random)):
             if draft is not None:
-                own.append(replace(draft, name=f"{draft.name}-{len(own) + 1}"))
+                own.append(replace(draft, name=f"{draft.name}_{len(own) + 1}"))
             if len(own) >= share or tried >= TRIES * share:
                 break
         if not own:
             raise UnsupportedError(
-                f"no test of {instrument} fits into the travel of {means.machine.name!r} and keeps clear of spindle and table; "
-                f"take a shorter bar, a smaller clearance cone, or another tool"
+                f"no test of {instrument} fits into the travel of {means.machine.name!r} and keeps clear of spindle and "
+                f"table; take a shorter bar, a smaller clearance cone, or another tool"
             )
         found += own
     return tuple(found)

@@ -10,12 +10,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from math import radians
 
 import numpy as np
 
 from elastogeo.errors import InputError
 from elastogeo.machine import Angle, Array, Machine, loop_frames
 from elastogeo.observe import Observations
+
+CONE, SPINDLE_TO_TABLE = radians(40.0), radians(95.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,8 +33,8 @@ class Clearance:
         Greatest angle between the spindle and the normal of the table: beyond a right angle it comes from below.
     """
 
-    cone: Angle = np.deg2rad(40.0)
-    spindle_to_table: Angle = np.deg2rad(95.0)
+    cone: Angle = CONE
+    spindle_to_table: Angle = SPINDLE_TO_TABLE
 
     def __post_init__(self) -> None:
         """Refuse degrees given as radians."""

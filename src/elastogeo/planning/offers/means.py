@@ -56,13 +56,13 @@ class Means:
         endless = [joint.name for joint in machine.joints if not joint.is_rotary and not np.isfinite(joint.travel).all()]
         if endless:
             raise InputError(
-                f"the travel of {' '.join(endless)} of machine {machine.name!r} is not known; state travel_mm of every linear "
-                f"axis in the machine file, so that tests are planned within it"
+                f"the travel of {' '.join(endless)} of machine {machine.name!r} is not known; state travel_mm of every "
+                f"linear axis in the machine file, so that tests are planned within it"
             )
         if len({abs(force) for force in self.forces}) < 2 or not np.isfinite(self.forces).all():
             raise InputError(
-                f"the force levels are {', '.join(f'{force:g}' for force in self.forces) or 'none'} N; it takes two different "
-                f"ones: one level does not tell compliance from geometry"
+                f"the force levels are {', '.join(f'{force:g}' for force in self.forces) or 'none'} N; it takes two "
+                f"different ones: one level does not tell compliance from geometry"
             )
         if not self.radii or not all(0 < radius < inf for radius in self.radii):
             raise InputError(f"the lengths of the bars are {self.radii} mm; give one at least, all positive")

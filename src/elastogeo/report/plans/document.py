@@ -1,0 +1,102 @@
+"""`elastogeo.plan/1`: which tests to run, and what they will tell.
+
+machine : {name, topology}
+goal, asked, candidates, minutes : what the plan is for, the parameters that were named, how many tests it was chosen from
+forces_N, tools_mm : force levels of every test, tool points
+noise : {reading_mm, angle_rad, set_up_mm, force}: standard deviations that the tests were taken to be read with
+made : names of the tests that were made already
+tests : [{name, instrument, minutes, commands, rank, supported, worst_with_prior}], in the order of doing; `commands` by axis
+    [mm, rad], least and greatest; the last three after this test
+parameters : [{name, unit, known, stands_for, standard_uncertainty, scale}]; known is `alone`, `sum` or `unseen`
+rank, highest_rank, weak : directions determined, determined by all candidates together, and known worse than expected
+workspace : [{tool_mm, share, median, worst, worst_with_prior, worst_at, tests_needed}], standard uncertainties in mm/N
+next_best : {name, rank, worst_with_prior, supported} or null
+verdict : as in `envelope`
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from elastogeo.planning import Candidate, Plan
+from elastogeo.report.document import document, verdict_entries
+
+PLAN_SCHEMA = "elastogeo.plan/1"
+
+
+def plan_json(plan: Plan) -> dict[str, Any]:
+    """A plan as one JSON object (`elastogeo.plan/1`)."""
+    machine, noise, more = plan.means.machine, plan.noise, plan.next_best
+    return document(
+        PLAN_SCHEMA,
+        {
+            "machine": {"name": machine.name, "topology": machine.topology.compact},
+            "goal": plan.goal,
+            "asked": plan.asked,
+            "candidates": plan.candidates,
+            "minutes": plan.minutes,
+            "forces_N": plan.means.forces,
+            "tools_mm": plan.means.tool_points,
+            "noise": {
+                "reading_mm": noise.reading,
+                "angle_rad": noise.angle,
+                "set_up_mm": noise.set_up,
+                "force": noise.force,
+            },
+            "made": [] if plan.made is None else list(plan.made.tests),
+            "tests": [
+                {
+                    "name": one.candidate.name,
+                    "instrument": one.candidate.test.instrument,
+                    "minutes": one.candidate.minutes,
+                    "commands": commands_of(one.candidate),
+                    "rank": one.rank_so_far,
+                    "supported": one.supported_so_far,
+                    "worst_with_prior": one.worst_so_far,
+                }
+                for one in plan.tests
+            ],
+            "parameters": [
+                {
+                    "name": p.name,
+                    "unit": p.unit,
+                    "known": p.known,
+                    "stands_for": dict(p.stands_for),
+                    "standard_uncertainty": p.standard_uncertainty,
+                    "scale": p.scale,
+                }
+                for p in plan.parameters
+            ],
+            "rank": plan.rank,
+            "highest_rank": plan.highest_rank,
+            "weak": plan.weak,
+            "workspace": [
+                {
+                    "tool_mm": tool.tool,
+                    "share": tool.share,
+                    "median": tool.median,
+                    "worst": tool.worst,
+                    "worst_with_prior": tool.worst_with_prior,
+                    "worst_at": dict(tool.worst_at),
+                    "tests_needed": tool.tests_needed,
+                }
+                for tool in plan.tools
+            ],
+            "next_best": None
+            if more is None
+            else {
+                "name": more.candidate.name,
+                "rank": more.rank,
+                "worst_with_prior": more.worst,
+                "supported": more.supported,
+            },
+            "verdict": verdict_entries(plan.verdict),
+        },
+    )
+
+
+def commands_of(candidate: Candidate) -> dict[str, list[float]]:
+    """Least and greatest command of each axis [mm, rad]."""
+    commands = candidate.test.observations()[0].commands
+    axes = candidate.test.machine.axes
+    return {axis: [float(commands[:, k].min()), float(commands[:, k].max())] for k, axis in enumerate(axes)}

@@ -1,0 +1,91 @@
+"""The tests of a plan in words and figures."""
+
+from __future__ import annotations
+
+from math import degrees
+
+import numpy as np
+
+from elastogeo.machine import Machine
+from elastogeo.observe import MachineTest
+from elastogeo.planning import Candidate, Plan
+from elastogeo.report.numbers import display_unit, pretty, significant
+from elastogeo.report.view import Table
+
+PER_NEWTON = "mm/N"
+_ROUND = 0.5
+"""Of a turn's angle [deg]: less is rounding."""
+
+
+def test_table(plan: Plan) -> Table:
+    """The tests in the order of doing."""
+    unit = display_unit(PER_NEWTON, plan.tests[-1].worst_so_far)
+    rows = tuple(
+        (
+            str(k),
+            one.candidate.name,
+            one.candidate.test.instrument.replace("-", " "),
+            what_of(one.candidate),
+            where_of(one.candidate),
+            f"{one.candidate.minutes:.0f}",
+            str(one.rank_so_far),
+            f"{100 * one.supported_so_far:.0f}",
+            significant(one.worst_so_far * unit.factor),
+        )
+        for k, one in enumerate(plan.tests, start=1)
+    )
+    headings = ("", "test", "instrument", "what", "where", "min", "rank", "supported [%]", f"worst u [{unit.name}]")
+    return Table(
+        headings,
+        rows,
+        words=(1, 2, 3, 4),
+        title="Tests, in the order of doing",
+        note="Rank, share of the workspace supported and worst standard uncertainty (with the stated prior) are those after "
+        "the test, with all before it.",
+    )
+
+
+def what_of(candidate: Candidate) -> str:
+    """What a test does: plane, radius and what turns; or directions."""
+    facts = {fact.name: fact.value for fact in candidate.setup.facts()}
+    parts = []
+    if "plane" in facts:
+        plane = facts["plane"]
+        turn = np.ptp(candidate.test.runs[0].columns["angle"])
+        full = 2 * np.pi * (1 - 1.5 / len(candidate.test.runs[0].columns["angle"]))
+        arc = "circle" if turn > full else f"arc of {degrees(float(turn)):.0f}°"
+        parts.append(f"{plane if isinstance(plane, str) else 'tilted'} {arc}, R {facts['radius']:g} mm")
+    if "across" in facts:
+        parts.append(f"probe across {facts['across']}")
+    turns = facts.get("rotary turn")
+    if isinstance(turns, dict) and turns:
+        parts.append(f"{' and '.join(turns)} turning")
+    tool = _tool(candidate.test)
+    return ", ".join([*parts, *([tool] if tool else [])])
+
+
+def where_of(candidate: Candidate) -> str:
+    """Where a test stands: axis commands at its centre."""
+    machine = candidate.test.machine
+    centre = np.asarray(candidate.test.observations()[0].commands)
+    middle = (centre.min(axis=0) + centre.max(axis=0)) / 2
+    said = [_said(machine, k, float(value), float(np.ptp(centre[:, k]))) for k, value in enumerate(middle)]
+    return pretty(" ".join(filter(None, said)))
+
+
+def _said(machine: Machine, k: int, value: float, span: float) -> str:
+    joint = machine.joints[k]
+    if not joint.is_rotary:
+        return f"{joint.name} {value:.0f}"
+    if degrees(span) > _ROUND:
+        low, high = degrees(value - span / 2), degrees(value + span / 2)
+        return f"{joint.name} {low:.0f}...{high:.0f}°"
+    return f"{joint.name} {degrees(value):.0f}°" if joint.compliant else ""
+
+
+def _tool(test: MachineTest) -> str:
+    """The tool, where it is not the machine's own."""
+    tool = getattr(test.setup, "tool", None)
+    if tool is None or tuple(tool) == test.machine.tool:
+        return ""
+    return f"tool at {', '.join(f'{part:g}' for part in tool)} mm"
