@@ -4,7 +4,8 @@ What the control does was measured in runs of its own simulator (`tests/linuxcnc
 command = command + trim, linear between the points, constant beyond them, the forward column while the joint moves up, the
 reverse column while it moves down, kept at rest. Of `COMP_FILE_TYPE` 0 the columns are where the axis really was, so that
 the trim is nominal less actual; of type 1 they are the trims. `BACKLASH` of the joint is ignored where it has such a file,
-so the reversal is in the two columns. At most 256 points, which ascend.
+so the reversal is in the two columns. At most 256 points, which ascend. One limit was found: with a the half of the joint's
+`MAX_ACCELERATION` and T the servo period, a step of the correction between a T^2 / 2 and a T^2 is never applied.
 
 A file says neither its axis nor its type, and the control stops reading at the first line that is no triplet: there the last
 line says both, for people and for reading back.
