@@ -21,11 +21,11 @@ from elastogeo.estimate import factor_blocks, solve
 from elastogeo.identification import Identification, confounding_of, identify, merged, noise_of, systems_of
 from elastogeo.machine import Array
 from elastogeo.observe import Imperfection, MachineTest, Observations, instruments
+from elastogeo.planning import ceiling
 from elastogeo.report import sentence_of
 from elastogeo.sources import (
     Situation,
     Source,
-    alike_at_the_tool,
     catalogue,
     design_rows,
     exact_response,
@@ -210,16 +210,17 @@ def test_a_purely_radial_force_cannot_tell_mirrored_terms(any_case: Case) -> Non
         assert_allclose(column[name], column[twin], rtol=0, atol=1e-10 * scale[source.unit])
 
 
-def test_no_instrument_at_the_tool_tells_joints_in_a_row_apart(any_case: Case) -> None:
-    """Linear joints with no rotary joint between: identical columns. What reads across some sees these alone."""
+def test_no_instrument_sees_what_neighbours_exchange_unseen(any_case: Case) -> None:
+    """The closed form of `planning.ceilings`: only what reads across one of two neighbours tells them apart."""
     test = any_case.test(forces=(300.0,), readings=12)
     observed = test.observations()[0]
-    for names in alike_at_the_tool(test.machine):
-        columns = design_rows(select_sources(test.machine, names), test.machine, observed)[:, :-1]
-        seen = np.array([observed.sees(name[-1]) for name in names])
-        assert_allclose(columns[:, seen], np.broadcast_to(columns[:, seen][:, :1], columns[:, seen].shape), atol=1e-9)
-        assert not columns[:, ~seen].any()
-        assert observed.span is not None or seen.all()
+    bound = ceiling(test.machine)
+    columns = design_rows(bound.sources, test.machine, observed)[:, :-1]
+    size = np.abs(columns * bound.scales).max()
+    for pair in bound.pairs:
+        changed = columns @ pair.exchanges.T / np.abs(pair.exchanges / bound.scales).max(axis=1)
+        unseen = np.abs(changed).max(initial=0.0) <= 1e-9 * size
+        assert unseen or observed.sees(pair.first) != observed.sees(pair.second)
 
 
 def test_a_deficient_question_is_refused_and_named(

@@ -71,7 +71,12 @@ def test_static_forces_and_probes_at_the_tool_see_91_of_180() -> None:
     (group,) = [group for group in tool.groups if "C_XXX" in group]
     assert {"C_XXX", "C_XXY", "C_XXZ"} <= set(group)
     (said,) = [note for note in view_of(explained).notes if note.startswith("No test between tool and workpiece")]
-    assert "distinguishes C_XXY, C_XXX and C_XXZ, nor 8 more such sums: no rotary axis lies between them" in said
+    assert "distinguishes C_XXX, C_XXY, C_XXZ and C_XXA, nor" in said
+    assert "what moves between them changes neither a translation in x nor a force in x" in said
+    assert "A displacement probe across X, along x of its carriage's frame and at that frame's origin (joint-probe)" in said
+    (bounded,) = [note for note in view_of(explained).notes if note.startswith("Of 180 compliances")]
+    assert "91 combinations are determined" in bounded
+    assert "tell at most 91 (with the tools of these tests), any test between tool and workpiece at most 123" in bounded
 
 
 def test_a_probe_across_x_at_its_origin_makes_the_compliance_of_x_exact() -> None:
@@ -83,7 +88,8 @@ def test_a_probe_across_x_at_its_origin_makes_the_compliance_of_x_exact() -> Non
     assert {"C_XXY", "C_XXZ", "C_XXA"} <= set(result.stands_for(rest))
     assert "C_XXX" not in result.stands_for(rest)
     (said,) = [note for note in view_of(with_a_probe()).notes if note.startswith("No test between tool and workpiece")]
-    assert "distinguishes C_XXY and C_XXZ, nor 8 more such sums" in said
+    assert "distinguishes C_XXY, C_XXZ and C_XXA, nor" in said
+    assert not any("at most" in note for note in view_of(with_a_probe()).notes)  # such tests are no longer all at the tool
 
 
 def test_three_directions_see_106() -> None:

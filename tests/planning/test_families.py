@@ -12,8 +12,8 @@ import pytest
 from elastogeo.errors import InputError
 from elastogeo.formats import read_machine
 from elastogeo.machine import Machine, Point, Workpiece, jacobian, parse_topology
-from elastogeo.observe import JointProbe, MachineTest, Run, Sensor, SensorFrame
-from elastogeo.planning import BAR, PROBES, SIX, ceiling, family_ceiling, family_of
+from elastogeo.observe import BAR, PROBES, SIX, JointProbe, MachineTest, Run, Sensor, SensorFrame, family_of
+from elastogeo.planning import ceiling, family_ceiling
 from elastogeo.planning.families import _decomposed
 
 ONE: tuple[Point, ...] = ((0.0, 0.0, -150.0),)

@@ -149,7 +149,7 @@ def test_a_number_that_is_none_is_null(rich) -> None:
 
 
 def test_confounding(rich) -> None:
-    document = explanation_json(Explanation(rich.campaign, rich.confounding))
+    document = explanation_json(Explanation(rich.campaign, rich.confounding), None)
     assert document["schema"] == "elastogeo.explanation/1"
     assert document["retained"][0]["name"] == "C_XXX"
     assert set(document["retained"][0]["stands_for"]) == {"C_XXX", "C_XXY"}

@@ -15,7 +15,8 @@ from elastogeo.identification.question import (
     with_question,
 )
 from elastogeo.identification.reciprocity import Reciprocity
-from elastogeo.observe import Askable, Campaign, MachineTest, campaign_of
+from elastogeo.machine import Point
+from elastogeo.observe import Askable, Campaign, MachineTest, campaign_of, family_of
 from elastogeo.result import Result
 
 
@@ -32,12 +33,18 @@ class Explanation(Result):
         What symmetric joints would buy; None if it was not asked for.
     steps : tuple of Step
         Of several tests, in order, what each adds to those before it; empty for one.
+    family : str or None
+        What all tests together load and read between tool and workpiece (`observe.family_of`).
+    tools : tuple of tuple of 3 float [mm]
+        The functional points that they have.
     """
 
     campaign: Campaign
     confounding: Confounding
     reciprocity: Reciprocity | None = None
     steps: tuple[Step, ...] = ()
+    family: str | None = None
+    tools: tuple[Point, ...] = ()
 
     @property
     def test(self) -> MachineTest:
@@ -73,4 +80,6 @@ def explain(one: Askable, **asked: Unpack[Asked]) -> Explanation:
     systems = systems_of(campaign)
     found = confounding_of(campaign, systems)
     steps = shares_of(systems, found.retained).steps(systems.tests) if campaign.several else ()
-    return Explanation(campaign, found, bought, steps)
+    observed = [run.observations for run in systems.runs]
+    tools = dict.fromkeys((float(x), float(y), float(z)) for x, y, z in (run.tool for run in observed))
+    return Explanation(campaign, found, bought, steps, family_of(campaign.machine, observed), tuple(tools))

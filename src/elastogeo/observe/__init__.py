@@ -7,6 +7,7 @@ from elastogeo.observe.circle import PLANES, Circle, plane_directions
 from elastogeo.observe.contradictions import check_runs, turning
 from elastogeo.observe.covariance import ASSUMED
 from elastogeo.observe.expansion import Expansion
+from elastogeo.observe.families import BAR, PROBES, SIX, family_of
 from elastogeo.observe.force import THESIS_CALIBRATION, Calibration, ForceInfluence, force_from_pressure
 from elastogeo.observe.imperfection import Imperfection, Residue
 from elastogeo.observe.instruments import instrument, instrument_named, instruments
@@ -27,7 +28,10 @@ from elastogeo.observe.template import Template
 
 __all__ = [
     "ASSUMED",
+    "BAR",
     "PLANES",
+    "PROBES",
+    "SIX",
     "THESIS_CALIBRATION",
     "Approaches",
     "Askable",
@@ -68,6 +72,7 @@ __all__ = [
     "check_runs",
     "check_sees_twist",
     "distinct",
+    "family_of",
     "force_from_pressure",
     "instrument",
     "instrument_named",

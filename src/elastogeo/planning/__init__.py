@@ -1,7 +1,7 @@
 """Which tests to run: candidates, what they tell, the choice among them. Stands on `prediction` and all below."""
 
 from elastogeo.planning.ceilings import Ceiling, Pair, ceiling
-from elastogeo.planning.families import BAR, PROBES, SIX, FamilyCeiling, family_ceiling, family_of
+from elastogeo.planning.families import FamilyCeiling, family_ceiling
 from elastogeo.planning.information import Unknowns, unknowns, whitened
 from elastogeo.planning.noise import ReadingNoise
 from elastogeo.planning.offers.candidate import Candidate
@@ -10,28 +10,19 @@ from elastogeo.planning.offers.clearance import Clearance
 from elastogeo.planning.offers.means import Means
 from elastogeo.planning.offers.proposal import proposals, proposes
 from elastogeo.planning.plan import GOALS, plan
-from elastogeo.planning.result import (
-    ALONE,
-    IN_A_SUM,
-    UNSEEN,
-    Expectation,
-    NextBest,
-    Plan,
-    PlannedTest,
-    ToolSupport,
-)
+from elastogeo.planning.reach import Reach, reach_of
+from elastogeo.planning.reasons import Exchange, Probe, Reason, Remedy, reason_for
+from elastogeo.planning.result import ALONE, IN_A_SUM, UNSEEN, Expectation, NextBest, Plan, PlannedTest, ToolSupport
 
 __all__ = [
     "ALONE",
-    "BAR",
     "GOALS",
     "IN_A_SUM",
-    "PROBES",
-    "SIX",
     "UNSEEN",
     "Candidate",
     "Ceiling",
     "Clearance",
+    "Exchange",
     "Expectation",
     "FamilyCeiling",
     "Means",
@@ -39,16 +30,21 @@ __all__ = [
     "Pair",
     "Plan",
     "PlannedTest",
+    "Probe",
+    "Reach",
     "ReadingNoise",
+    "Reason",
+    "Remedy",
     "ToolSupport",
     "Unknowns",
     "candidates",
     "ceiling",
     "family_ceiling",
-    "family_of",
     "plan",
     "proposals",
     "proposes",
+    "reach_of",
+    "reason_for",
     "unknowns",
     "whitened",
 ]

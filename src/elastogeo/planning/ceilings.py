@@ -20,6 +20,7 @@ import numpy as np
 
 from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
+from elastogeo.estimate import RANK_TOLERANCE
 from elastogeo.identification import reciprocal_sources
 from elastogeo.machine import Array, Frame, LoopFrames, Machine, Site, loop_frames
 from elastogeo.planning.invariants import generator, invariants, twist_map
@@ -56,10 +57,8 @@ class Ceiling(ByValue):
 
     Attributes
     ----------
-    labels : tuple of str
+    sources : tuple of Source
         The p compliances, in the order of the catalogue; those of a reciprocal pair are one.
-    scales : array, shape (p,)
-        The size that each is expected to have, in its unit: what a direction is small against.
     pairs : tuple of Pair
         From workpiece to tool.
     reciprocal : bool
@@ -68,16 +67,25 @@ class Ceiling(ByValue):
         The axes that no test moves.
     """
 
-    labels: tuple[str, ...]
-    scales: Array
+    sources: tuple[Source, ...]
     pairs: tuple[Pair, ...]
     reciprocal: bool
     held: Mapping[str, float]
 
     @property
+    def labels(self) -> tuple[str, ...]:
+        """The names of the compliances."""
+        return tuple(source.name for source in self.sources)
+
+    @property
+    def scales(self) -> Array:
+        """The size that each is expected to have, shape (p,), in its unit: what a direction is small against."""
+        return compliance_scales(self.sources)
+
+    @property
     def columns(self) -> int:
         """How many compliances there are."""
-        return len(self.labels)
+        return len(self.sources)
 
     @property
     def kernel(self) -> Array:
@@ -108,6 +116,23 @@ class Ceiling(ByValue):
     def unseen(self, name: str) -> bool:
         """Whether a compliance is never known by itself: something that no test sees changes it."""
         return bool(self.kernel[:, self._places_of([name])].any())
+
+    def alike(self, names: Collection[str]) -> tuple[tuple[str, ...], ...]:
+        """Groups of these compliances that make the same trace, but for its size, in every test; all others are rigid."""
+        inside = self._places_of(names)
+        rows = self.kernel / self.scales
+        hidden = rows[:, inside] if len(inside) == self.columns else _vanishing(rows, inside)
+        _, _, Vt = np.linalg.svd(hidden)
+        seen = Vt[len(hidden) :].T
+        seen = seen / np.maximum(np.linalg.norm(seen, axis=1, keepdims=True), np.finfo(float).tiny)
+        groups: list[tuple[str, ...]] = []
+        left = np.flatnonzero(seen.any(axis=1))
+        while left.size:
+            along = seen[left] @ seen[left[0]]
+            same = np.linalg.norm(seen[left] - np.outer(along, seen[left[0]]), axis=1) < RANK_TOLERANCE
+            groups.append(tuple(self.labels[inside[k]] for k in left[same]))
+            left = left[~same]
+        return tuple(group for group in groups if len(group) > 1)
 
     def _places_of(self, names: Collection[str]) -> list[int]:
         unknown = [name for name in names if name not in self.labels]
@@ -147,8 +172,7 @@ def ceiling(machine: Machine, reciprocal: bool = False, held: Mapping[str, float
     frames = loop_frames(machine, commands)
     loop = _Loop(machine, frames, sources, reciprocal)
     return Ceiling(
-        labels=tuple(source.name for source in sources),
-        scales=compliance_scales(sources),
+        sources=sources,
         pairs=tuple(loop.pair(first, second, moving) for first, second, moving in _neighbours(machine, held)),
         reciprocal=reciprocal,
         held=held,
@@ -195,7 +219,7 @@ class _Loop:
         for k, source in enumerate(self.sources):
             if source.site == site:
                 rows[:, k] = tensors[:, source.component, source.load or 0]
-        scaled = rows / compliance_scales(self.sources)
+        scaled = rows / compliance_scales(self.sources)  # an entry of 1e-9 of the greatest is rounding error
         rows[np.abs(scaled) < DEPENDENT * np.abs(scaled).max(axis=1, keepdims=True, initial=0.0)] = 0.0
         return rows
 
@@ -241,6 +265,14 @@ def _around(machine: Machine) -> list[Site]:
 def _alone(frame: Frame) -> Frame:
     """A frame at the first pose, upright or not."""
     return Frame(np.asarray(frame.rotation[:1]), np.asarray(frame.origin[:1]))
+
+
+def _vanishing(rows: Array, inside: list[int]) -> Array:
+    """What combinations of rows leave inside, shape (k, len(inside)), that vanish everywhere else."""
+    outside = np.delete(rows, inside, axis=1)
+    U, values, _ = np.linalg.svd(outside)
+    rank = int((values > DEPENDENT * values[0]).sum()) if values.size else 0
+    return np.asarray(U[:, rank:].T @ rows[:, inside])
 
 
 def _rank(rows: Array) -> int:

@@ -7,7 +7,7 @@ of all their readings at many random poses at once.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from math import pi
 
@@ -17,19 +17,15 @@ from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
 from elastogeo.identification import reciprocal_sources
 from elastogeo.machine import Array, Machine, Point
-from elastogeo.observe import Observations
+from elastogeo.observe import BAR, PROBES, SIX
 from elastogeo.planning.ceilings import compliances_of
 from elastogeo.prediction import compliance_scales, functionals, virtual_observations
-
-BAR, PROBES, SIX = "bar", "probes", "six"
-"""A force and a reading along one line; forces and displacements in any direction; wrenches and twists."""
 
 SEEN = 1e-9
 """Relative tolerance of the rank. Every machine looked at has ten orders between what counts and what does not."""
 
 _LINEAR_REACH, _ROTARY_REACH = 300.0, pi
 _AT_LEAST = 24
-_ALONG = 1e-9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,6 +58,21 @@ class FamilyCeiling(ByValue):
     def columns(self) -> int:
         """How many compliances there are."""
         return len(self.labels)
+
+    def among(self, names: Collection[str]) -> int:
+        """The rank of some of the compliances, all others being rigid.
+
+        Raises
+        ------
+        InputError
+            If a name is none of the compliances.
+        """
+        unknown = [name for name in names if name not in self.labels]
+        if unknown:
+            raise InputError(f"{', '.join(unknown)}: no compliance of a joint of this machine")
+        rows = self.seen[[self.labels.index(name) for name in dict.fromkeys(names)]]
+        values = np.linalg.svd(rows / np.linalg.norm(rows, axis=1, keepdims=True).clip(SEEN), compute_uv=False)
+        return int((values > SEEN * values[0]).sum()) if rows.any() else 0
 
 
 def family_ceiling(
@@ -113,30 +124,6 @@ def family_ceiling(
     left = values[rank] if rank < len(values) else 0.0
     gap = float(values[rank - 1] / left) if left else float("inf")
     return FamilyCeiling(family, tuple(source.name for source in sources), np.ascontiguousarray(Vt[:rank].T), gap)
-
-
-def family_of(machine: Machine, observations: Sequence[Observations]) -> str | None:
-    """The narrowest family that tests belong to; None where something loads or reads elsewhere than tool and workpiece.
-
-    Parameters
-    ----------
-    machine : Machine
-        Carriages with a mass load the joints by themselves, which no family counts on.
-    observations : sequence of Observations
-        Of all runs. A probe across a joint, and a weight on the table, belong to no family.
-    """
-    if any(joint.mass for joint in machine.joints):
-        return None
-    found = BAR
-    for run in observations:
-        if run.span is not None or run.weight is not None:
-            return None
-        if run.wrench[:, 3:].any() or run.direction[:, 3:].any():
-            return SIX
-        across = np.cross(run.wrench[:, :3], run.direction[:, :3])
-        if (np.abs(across) > _ALONG * np.abs(run.wrench).max(initial=0.0)).any():
-            found = PROBES
-    return found
 
 
 def _pairs(family: str) -> tuple[Array, Array]:

@@ -50,7 +50,7 @@ def twist_map(frame: Frame) -> Array:
 def invariants(generators: Sequence[Array], reciprocal: bool = False) -> Array:
     """A basis of the tensors that every motion leaves unchanged, shape (k, 6, 6) [mm/N, ...], in the generators' frame.
 
-    The basis is the reduced echelon form, entry by entry: an invariant of one entry stands by itself.
+    The basis is the reduced echelon form, entry by entry, each beginning with one: an invariant of one entry stands alone.
 
     Parameters
     ----------
@@ -70,7 +70,9 @@ def invariants(generators: Sequence[Array], reciprocal: bool = False) -> Array:
     _, values, Vt = np.linalg.svd(np.vstack(rows))
     rank = int((values > INVARIANT).sum())
     found = echelon(Vt[rank:] @ tensors.reshape(len(tensors), 36))
-    return np.asarray(found.reshape(-1, 6, 6) * scale[:, np.newaxis] * scale)
+    found = found.reshape(-1, 6, 6) * scale[:, np.newaxis] * scale
+    first = found.reshape(-1, 36)[np.arange(len(found)), (found != 0).reshape(-1, 36).argmax(axis=1)]
+    return np.asarray(found / first[:, np.newaxis, np.newaxis])
 
 
 def echelon(rows: Array) -> Array:

@@ -132,3 +132,9 @@ def combination(terms: Mapping[str, float], most: int = 0) -> str:
 def in_micrometres(length: float, digits: int = 3) -> str:
     """A length [mm] as a number of micrometres."""
     return significant(length * UM, digits)
+
+
+def listed(names: Iterable[str]) -> str:
+    """Names in a sentence: `C_XXX, C_XYX and C_YYY`."""
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last

@@ -1,7 +1,7 @@
 """The error sources: names, units, drivers, catalogue, presets; the readings they cause. Stands on `observe`, `machine`."""
 
 from elastogeo.sources.catalogue import PRESETS, catalogue, select_sources
-from elastogeo.sources.compliance import JointLoad, alike_at_the_tool
+from elastogeo.sources.compliance import JointLoad
 from elastogeo.sources.families import families, family
 from elastogeo.sources.response import (
     column_ceilings,
@@ -25,7 +25,6 @@ __all__ = [
     "Sign",
     "Situation",
     "Source",
-    "alike_at_the_tool",
     "catalogue",
     "column_ceilings",
     "design_blocks",

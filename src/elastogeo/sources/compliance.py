@@ -68,39 +68,3 @@ def _twist_words(component: int) -> str:
 def _load_words(component: int) -> str:
     """A load component in words: `moment about x`."""
     return f"{'moment about' if component >= 3 else 'force in'} {'xyz'[component % 3]}"
-
-
-def alike_at_the_tool(machine: Machine) -> tuple[tuple[str, ...], ...]:
-    """Compliances that no test between tool and workpiece tells apart, whatever its poses, loads and tools.
-
-    A linear joint that gives way along a fixed direction displaces the tool by the same vector wherever it sits in the loop,
-    and carries the same force: the columns of such joints in a row, with no rotary joint between and none inclined, are
-    identical. Across the foundation too: both signs turn. So are those of places that the machine declares between them.
-    """
-    rows: list[list[str]] = [[]]
-    for name in _in_a_row(machine):
-        joint = next((joint for joint in machine.joints if joint.name == name), None)
-        if joint is None:
-            rows[-1].append(f"CL_{{}}{name}")
-        elif joint.is_rotary or any(joint.tilt):
-            rows.append([])
-        elif joint.compliant:
-            rows[-1].append(f"C_{{}}{name}")
-    return tuple(
-        tuple(name.format(COMPONENTS[d] + COMPONENTS[f]) for name in row)
-        for row in rows
-        if len(row) > 1
-        for d in range(3)
-        for f in range(3)
-    )
-
-
-def _in_a_row(machine: Machine) -> Iterator[str]:
-    """Axes and places from the workpiece to the tool; a place comes after its carriage, seen from the foundation."""
-    on = {place.on: [other.name for other in machine.places if other.on == place.on] for place in machine.places}
-    yield from reversed(on.get("workpiece", []))
-    for axis in machine.topology.workpiece:
-        yield from (*reversed(on.get(axis, [])), axis)
-    for axis in machine.topology.tool:
-        yield from (axis, *on.get(axis, []))
-    yield from on.get("tool", [])

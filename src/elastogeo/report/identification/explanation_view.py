@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from elastogeo.identification import Explanation
+from elastogeo.planning import Reach, reach_of
+from elastogeo.report.ceilings import reach_words
 from elastogeo.report.head import campaign_head
 from elastogeo.report.identification.explanation_document import explanation_json
 from elastogeo.report.identification.inseparable import inseparable_words
@@ -31,7 +33,9 @@ def explanation_view(explained: Explanation) -> View:
         if found.rank == asked
         else f"{asked} parameters, of which {these} {found.rank} combinations."
     )
-    document = explanation_json(explained)
+    reach = reach_of(explained)
+    words += () if reach is None else (reach_words(reach),)
+    document = explanation_json(explained, reach)
     return View(
         kind="What a test distinguishes",
         title=campaign.machine.name,
@@ -41,6 +45,7 @@ def explanation_view(explained: Explanation) -> View:
         sentence=answer,
         values=(
             KeyValue("rank", f"{found.rank} of {asked}"),
+            *_bound(reach),
             KeyValue("condition number, scaled columns", f"{found.condition_scaled:.4g}"),
             KeyValue("changes no reading", str(len(found.null)), "parameters"),
         ),
@@ -52,3 +57,10 @@ def explanation_view(explained: Explanation) -> View:
         notes=(*words, *groups, *bought),
         sections=(Section("What this test distinguishes", words, tables=(*steps, table), points=(*groups, *bought)),),
     )
+
+
+def _bound(reach: Reach | None) -> tuple[KeyValue, ...]:
+    if reach is None:
+        return ()
+    meaning = f"with such tests; {reach.of_any} with any between tool and workpiece"
+    return (KeyValue("rank of the compliances", f"{reach.rank} of at most {reach.of_family}", meaning=meaning),)

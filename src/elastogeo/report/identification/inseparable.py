@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from elastogeo.estimate import Confounding
 from elastogeo.machine import Machine
-from elastogeo.report.identification.words import listed
-from elastogeo.sources import alike_at_the_tool
+from elastogeo.planning import ceiling, reason_for
+from elastogeo.report.ceilings import neither_words, remedy_words
+from elastogeo.report.text import listed
 
 
 def inseparable_words(machine: Machine, found: Confounding) -> tuple[str, ...]:
-    """Compliances of joints in a row that these readings show in one sum, in a sentence; nothing if there are none."""
+    """Compliances that these readings show in one sum, as every test between tool and workpiece does, in a sentence.
+
+    Nothing if there are none.
+    """
+    bound = ceiling(machine)
+    asked = [label for label in found.labels if label in bound.labels]
     together = [
         names
-        for alike in alike_at_the_tool(machine)
+        for alike in bound.alike(asked)
         for group in found.groups
         if len(names := tuple(name for name in alike if name in group)) > 1
     ]
@@ -20,8 +26,9 @@ def inseparable_words(machine: Machine, found: Confounding) -> tuple[str, ...]:
         return ()
     first, *others = together
     more = f", nor {len(others)} more such {'sum' if len(others) == 1 else 'sums'}" if others else ""
+    reasons = [why for name in first if (why := reason_for(machine, bound, name)) is not None]
+    told = next((f" {remedy_words(why.remedy, why.name)}" for why in reasons if why.remedy), "")
     return (
-        f"No test between tool and workpiece distinguishes {listed(first)}{more}: no rotary axis lies between them, "
-        f"so that the same force displaces the tool alike through each, at every pose. A displacement probe across "
-        f"a joint, at the origin of its carriage's frame (joint-probe), distinguishes it.",
+        f"No test between tool and workpiece distinguishes {listed(first)}{more}: what moves between them changes "
+        f"{neither_words(reasons[0])}, so that each gives way alike at every pose.{told}",
     )

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from elastogeo.estimate import Confounding
 from elastogeo.identification import SCATTER, SIGNIFICANT, Identification, Parameter
 from elastogeo.observe import Campaign
 from elastogeo.report.numbers import micro, probability, significant
 from elastogeo.report.sentences import sentence_of
-from elastogeo.report.text import all_separated, display_units
+from elastogeo.report.text import all_separated, display_units, listed
 
 REPEATABILITY = (
     "Repeatability is not uncertainty: it says how runs of one set-up scatter, not how far all of them are from the truth."
@@ -227,12 +227,6 @@ def repeats_words(result: Identification) -> list[str]:
         f"about that of one combination; dividing it by the root of {number} would claim far too much. The standard "
         f"uncertainty given here comes from the scatter of the runs, with Welch-Satterthwaite degrees of freedom.",
     ]
-
-
-def listed(names: Iterable[str]) -> str:
-    """Names in a sentence: `C_XXX, C_XYX and C_YYY`."""
-    *first, last = names
-    return f"{', '.join(first)} and {last}" if first else last
 
 
 def _geometry_words(each: Mapping[str, float], geometric: list[str]) -> str:
