@@ -29,9 +29,11 @@ if TYPE_CHECKING:
         machines,
         new_test,
         read_campaign,
+        read_cut,
         read_drives,
         read_log,
         read_machine,
+        read_path,
         read_run,
         read_test,
         simulate,
@@ -51,7 +53,7 @@ if TYPE_CHECKING:
     from elastogeo.machine import Machine
     from elastogeo.observe import Campaign, MachineTest
     from elastogeo.planning import plan
-    from elastogeo.prediction import compensate
+    from elastogeo.prediction import compensate, predict
     from elastogeo.result import Result
 
 __version__ = version.VERSION
@@ -80,10 +82,13 @@ _HOME = {
     "map_stiffness": "identification",
     "new_test": "formats",
     "plan": "planning",
+    "predict": "prediction",
     "read_campaign": "formats",
+    "read_cut": "formats",
     "read_drives": "formats",
     "read_log": "formats",
     "read_machine": "formats",
+    "read_path": "formats",
     "read_run": "formats",
     "read_test": "formats",
     "simulate": "formats",
@@ -116,10 +121,13 @@ __all__ = [
     "map_stiffness",
     "new_test",
     "plan",
+    "predict",
     "read_campaign",
+    "read_cut",
     "read_drives",
     "read_log",
     "read_machine",
+    "read_path",
     "read_run",
     "read_test",
     "simulate",

@@ -30,7 +30,7 @@ First steps:
 
 ORDER = (
     "new", "simulate", "identify", "diagnose", "compare", "whatif", "stiffness", "static", "positioning", "drive",
-    "record", "inspect", "calibrate", "explain", "plan", "compensate", "machines", "demo",
+    "record", "inspect", "calibrate", "explain", "plan", "nc", "map", "predict", "compensate", "machines", "demo",
 )  # fmt: skip
 """In which the help lists the commands; one that is not here comes last."""
 

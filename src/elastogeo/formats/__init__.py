@@ -21,6 +21,7 @@ from elastogeo.formats.documents.calibrations import (
     write_calibration,
 )
 from elastogeo.formats.documents.campaigns import read_campaign
+from elastogeo.formats.documents.cuts import read_cut
 from elastogeo.formats.documents.feed_drives import read_drives
 from elastogeo.formats.documents.machine_tests import example_test, full_turn, read_test, run_files_of
 from elastogeo.formats.documents.machines import find_machine, machines, read_machine, shipped_machines
@@ -50,6 +51,7 @@ from elastogeo.formats.recording_files import (
 from elastogeo.formats.run_files import RunFormat, read_run, run_formats
 from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.whole_files import write_whole
+from elastogeo.formats.tool_paths import force_of_table, path_of_table, read_forces, read_path
 
 __all__ = [
     "INITIAL",
@@ -79,6 +81,7 @@ __all__ = [
     "encode_part",
     "example_test",
     "find_machine",
+    "force_of_table",
     "full_turn",
     "inspect_file",
     "kinds_of_tests",
@@ -88,15 +91,19 @@ __all__ = [
     "on_one_clock",
     "part_files",
     "part_name",
+    "path_of_table",
     "poses_of",
     "read_back",
     "read_calibration",
     "read_campaign",
     "read_compensation",
+    "read_cut",
     "read_drives",
+    "read_forces",
     "read_head",
     "read_log",
     "read_machine",
+    "read_path",
     "read_recording",
     "read_run",
     "read_simulation",

@@ -3,6 +3,11 @@
 from elastogeo.estimate import Array
 from elastogeo.machine.about import About
 from elastogeo.machine.commands import Commands, Motion, follow, workpiece_ball
+from elastogeo.machine.cutting.coefficients import COEFFICIENTS, CuttingCoefficients, coefficients_of
+from elastogeo.machine.cutting.cut import Cut
+from elastogeo.machine.cutting.forces import ConstantForce, Directions, MeasuredForce, MillingForce, PathForce
+from elastogeo.machine.cutting.milling import Engagement, Mill, engagement_of, forces_over_a_turn, mean_force
+from elastogeo.machine.cutting.tools import HeldTool, ToolSection, cantilever, measured_tool
 from elastogeo.machine.error_tables import SIDES, ErrorTable, motion_of
 from elastogeo.machine.frames import (
     Frame,
@@ -21,6 +26,7 @@ from elastogeo.machine.programs.blocks import PLANE_AXES, Arc, Block, Comment, D
 from elastogeo.machine.programs.motion import MovesOf, ProgramPath
 from elastogeo.machine.programs.packed import PROGRAM_AXES, Packing
 from elastogeo.machine.programs.program import Program
+from elastogeo.machine.programs.tool_paths import path_of_program
 from elastogeo.machine.quantity import (
     MM_OR_RAD,
     Angle,
@@ -52,11 +58,13 @@ from elastogeo.machine.quantity import (
     TorquePerCurrent,
     Travel,
 )
+from elastogeo.machine.tool_path import ToolPath, path_of_commands, path_of_points, points_at
 from elastogeo.machine.topology import AXIS_ORDER, LINEAR, ROTARY, SPINDLE, Topology, parse_topology
 from elastogeo.machine.weights import Workpiece, weight_loads
 
 __all__ = [
     "AXIS_ORDER",
+    "COEFFICIENTS",
     "COMPONENTS",
     "DOWN",
     "LINEAR",
@@ -74,9 +82,14 @@ __all__ = [
     "Block",
     "Commands",
     "Comment",
+    "ConstantForce",
     "Current",
+    "Cut",
+    "CuttingCoefficients",
     "Damping",
+    "Directions",
     "Dwell",
+    "Engagement",
     "ErrorTable",
     "Feed",
     "Force",
@@ -84,6 +97,7 @@ __all__ = [
     "Forces",
     "Frame",
     "Frequency",
+    "HeldTool",
     "Inertia",
     "Joint",
     "JointFrames",
@@ -96,9 +110,13 @@ __all__ = [
     "LoopFrames",
     "Machine",
     "Mass",
+    "MeasuredForce",
+    "Mill",
+    "MillingForce",
     "Motion",
     "MovesOf",
     "Packing",
+    "PathForce",
     "PerLength",
     "Place",
     "Point",
@@ -114,18 +132,30 @@ __all__ = [
     "Targets",
     "Temperature",
     "Time",
+    "ToolPath",
+    "ToolSection",
     "Topology",
     "Torque",
     "TorquePerCurrent",
     "Travel",
     "Workpiece",
+    "cantilever",
     "carried_to",
     "check_commands",
+    "coefficients_of",
+    "engagement_of",
     "follow",
+    "forces_over_a_turn",
     "jacobian",
     "loop_frames",
+    "mean_force",
+    "measured_tool",
     "motion_of",
     "parse_topology",
+    "path_of_commands",
+    "path_of_points",
+    "path_of_program",
+    "points_at",
     "rotation_matrix",
     "steady",
     "weight_loads",

@@ -5,25 +5,47 @@ Stands on `identification`, `formats` and all below; knows no figure.
 
 from elastogeo.prediction.compensation import compensate
 from elastogeo.prediction.knowledge import Knowledge, Predicted, knowledge_of
+from elastogeo.prediction.paths import (
+    DEVIATION_COMPONENTS,
+    PARTS,
+    TOOL,
+    PartOfDeviation,
+    PathPrediction,
+    PieceDeviation,
+    deviations,
+    path_deviation,
+    predict,
+    simulated_points,
+)
 from elastogeo.prediction.scales import TYPICAL_COMPLIANCE, TYPICAL_LEVER, compliance_scales, parameter_scales
 from elastogeo.prediction.support import SUPPORTED, unsupported_share
 from elastogeo.prediction.tool_compliance import ToolCompliance, collinear_stiffness_of, compliance_along, tool_compliance
 from elastogeo.prediction.virtual import functionals, virtual_observations
 
 __all__ = [
+    "DEVIATION_COMPONENTS",
+    "PARTS",
     "SUPPORTED",
+    "TOOL",
     "TYPICAL_COMPLIANCE",
     "TYPICAL_LEVER",
     "Knowledge",
+    "PartOfDeviation",
+    "PathPrediction",
+    "PieceDeviation",
     "Predicted",
     "ToolCompliance",
     "collinear_stiffness_of",
     "compensate",
     "compliance_along",
     "compliance_scales",
+    "deviations",
     "functionals",
     "knowledge_of",
     "parameter_scales",
+    "path_deviation",
+    "predict",
+    "simulated_points",
     "tool_compliance",
     "unsupported_share",
     "virtual_observations",

@@ -158,6 +158,18 @@ def exact_response(values: Mapping[Source, float], machine: Machine, observation
     return np.asarray(displacement + _rotation_seen(frames, situation) + at_reading)
 
 
+def exact_points(values: Mapping[Source, float], machine: Machine, observations: Observations) -> Array:
+    """Where the tool really is, shape (m, 3) [mm], in the frame of the workpiece as it really stands.
+
+    By exact products of transforms, as `exact_response`; readings, directions and set-ups of instruments do not count.
+    """
+    situation = Situation(machine, observations)
+    machine_alone = ((source, value) for source, value in values.items() if not source.of_test)
+    frames = loop_frames(machine, observations.commands, observations.tool, site_twists(machine_alone, situation))
+    found = frames.workpiece.components(frames.point - frames.workpiece.origin)
+    return np.asarray(np.broadcast_to(found, (len(observations), 3)))
+
+
 def _rotation_seen(frames: LoopFrames, situation: Situation) -> Array | float:
     """What an angular direction sees, shape (m,) [rad]: the rotation of the tool relative to the workpiece."""
     about = situation.observations.direction[:, 3:]

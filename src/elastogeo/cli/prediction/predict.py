@@ -1,0 +1,86 @@
+"""`elastogeo predict`: how far the tool will be off along a path."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import elastogeo as eg
+from elastogeo.cli.options import AsJson, Parameters, Report, TestPaths
+from elastogeo.errors import InputError
+from elastogeo.formats import read_forces
+from elastogeo.machine import Directions, PathForce
+
+
+def predict(
+    tests: TestPaths,
+    path: Annotated[Path, typer.Option(help="Table of axis commands or tool points, or an NC program.")],
+    cut: Annotated[Path | None, typer.Option(help="Cut file: force or milling model, tool and holder, workpiece.")] = None,
+    force: Annotated[
+        str | None,
+        typer.Option(help="Force on the tool [N] as 0,-200,0; or a file of measured forces. Instead of the cut's."),
+    ] = None,
+    along: Annotated[Directions, typer.Option(help="Directions in which --force counts.")] = "workpiece",
+    zero: Annotated[
+        str | None, typer.Option(help="Axis commands at the zero of the workpiece (G54) [mm, deg], as X=100,Y=-50,C=30.")
+    ] = None,
+    feed: Annotated[float | None, typer.Option(help="Feed [mm/min] where the path says none.")] = None,
+    parameters: Parameters = None,
+    prior: Annotated[bool, typer.Option("--prior", help="Give what is not supported by the stated prior.")] = False,
+    report: Report = None,
+    as_json: AsJson = False,
+) -> None:
+    """Predict how far the tool will be off along a path.
+
+    Along the axes of the workpiece and normal to the path, with the interval that the tests support, split into geometry,
+    compliance and tool.
+
+    \b
+    Examples:
+      elastogeo predict my-campaign --path contour.csv --force 0,-200,0 --along path
+      elastogeo predict my-campaign --path slot.csv --cut slot.toml --zero X=100,Y=-50
+    """
+    from elastogeo.cli import screen
+
+    with screen.progress("reading the runs", quiet=as_json) as step_done:
+        asked = eg.read_campaign(tests)
+        step_done("identifying")
+        result = eg.identify(asked, parameters=parameters)
+        step_done("predicting along the path")
+        made = eg.read_path(path, result.campaign.machine, zero=_zero(zero), feed=None if feed is None else feed / 60)
+        loads = None if cut is None else eg.read_cut(cut)
+        found = eg.predict(result, made, loads, force=_force(force, along), along=along, prior=prior)
+    screen.show(found, report, as_json)
+
+
+def _force(given: str | None, along: Directions) -> tuple[float, ...] | PathForce | None:
+    """Three numbers, or what a file holds."""
+    if given is None:
+        return None
+    if Path(given).exists():
+        return read_forces(given, along)
+    try:
+        return tuple(float(part) for part in given.split(","))
+    except ValueError:
+        raise InputError(f"--force is {given!r}, neither a file nor numbers; write three in N, as 0,-200,0") from None
+
+
+def _zero(given: str | None) -> dict[str, float] | None:
+    """Axis commands in mm and rad, of `X=100,C=30` in mm and degrees."""
+    if given is None:
+        return None
+    from math import radians
+
+    commands = {}
+    for part in given.split(","):
+        axis, equals, value = (piece.strip() for piece in part.partition("="))
+        try:
+            number = float(value)
+        except ValueError:
+            raise InputError(f"--zero is {given!r}; write axis commands in mm and degrees, as X=100,Y=-50,C=30") from None
+        if not equals or axis not in tuple("XYZUVWABC"):
+            raise InputError(f"--zero names {axis!r}, which is no axis; write for example X=100,Y=-50,C=30")
+        commands[axis] = radians(number) if axis in "ABC" else number
+    return commands

@@ -1,0 +1,167 @@
+"""Path files: columns of axis commands or of tool points, and what a dynamometer recorded along a path.
+
+A path has a row for each point: axis commands (`command_x_mm`, `command_c_deg`; an axis without a column stays), or tool
+points from the zero of the workpiece along the axes of its frame (`x_mm`, `y_mm`, `z_mm`, with `a_deg`, `b_deg`, `c_deg` for
+rotary axes that move). Besides: `feed_mm_min`, `block`, `cutting` (1 or 0), and the force on the tool, `force_x_N`,
+`force_y_N`, `force_z_N`. A record of forces has these columns of force, and `way_mm`, `time_s` or none: then a row a point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from elastogeo.errors import InputError
+from elastogeo.formats.run_files import read_run
+from elastogeo.formats.text.table import Table
+from elastogeo.machine import Array, Directions, Machine, MeasuredForce, ToolPath, path_of_commands, path_of_points
+
+_COMMANDS = ("command_", "position_")
+_FORCES = ("force_x", "force_y", "force_z")
+_KNOWN = (*"xyzabc", "feed", "block", "cutting", "way", "time", *_FORCES)
+
+
+def read_path(
+    file: str | Path, machine: Machine, zero: Mapping[str, float] | None = None, feed: float | None = None
+) -> ToolPath:
+    """Read a tool path.
+
+    Parameters
+    ----------
+    file : str or Path
+        A table of axis commands or of tool points, in any format of run files.
+    machine : Machine
+    zero : mapping of str to float [mm, rad], optional
+        Of tool points, the axis commands at the zero of the workpiece; of axis commands, where axes without a column stay.
+    feed : float [mm/s], optional
+        Where the table says none.
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be read.
+    InputError
+        If it holds no path, or the machine cannot make it.
+    """
+    return path_of_table(read_run(file), machine, zero, feed)
+
+
+def read_forces(
+    file: str | Path,
+    along: Directions = "workpiece",
+    on: Literal["tool", "workpiece"] = "tool",
+    relative_uncertainty: float = 0.0,
+) -> MeasuredForce:
+    """Read the forces that a dynamometer recorded along a path: see `force_of_table`.
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be read.
+    InputError
+        If it holds no force.
+    """
+    return force_of_table(read_run(file), along, on, relative_uncertainty)
+
+
+def path_of_table(
+    table: Table, machine: Machine, zero: Mapping[str, float] | None = None, feed: float | None = None
+) -> ToolPath:
+    """The path that a table holds.
+
+    Parameters
+    ----------
+    table : Table
+    machine : Machine
+    zero : mapping of str to float [mm, rad], optional
+        Of tool points, the axis commands at the zero of the workpiece; of axis commands, where axes without a column stay.
+    feed : float [mm/s], optional
+        Where the table says none.
+
+    Raises
+    ------
+    InputError
+        If it holds no path, or a column is none of a path.
+    """
+    columns = table.columns
+    _check(table)
+    feeds = columns.get("feed", feed)
+    block = _whole(table, "block")
+    cutting = None if "cutting" not in columns else columns["cutting"] != 0
+    commanded = {
+        name[-1].upper(): name for name in columns if name.startswith(_COMMANDS) and len(name.rpartition("_")[2]) == 1
+    }
+    if commanded:
+        commands = np.tile([float((zero or {}).get(axis, 0.0)) for axis in machine.axes], (table.rows, 1))
+        for axis, name in commanded.items():
+            commands[:, machine.index(axis)] = columns[name]
+        return path_of_commands(machine, commands, feeds, block, cutting, name=table.source)
+    points = np.column_stack([columns.get(letter, np.zeros(table.rows)) for letter in "xyz"])
+    rotary = {letter.upper(): columns[letter] for letter in "abc" if letter in columns}
+    return path_of_points(machine, points, zero, rotary, feeds, block, cutting, name=table.source)
+
+
+def force_of_table(
+    table: Table,
+    along: Directions = "workpiece",
+    on: Literal["tool", "workpiece"] = "tool",
+    relative_uncertainty: float = 0.0,
+) -> MeasuredForce:
+    """The forces that a table holds.
+
+    Parameters
+    ----------
+    table : Table
+    along : str
+        Directions in which they count: the workpiece's, the machine's, the path's.
+    on : {"tool", "workpiece"}
+        What the dynamometer holds.
+    relative_uncertainty : float
+
+    Raises
+    ------
+    InputError
+        If it holds no force.
+    """
+    present = [name for name in _FORCES if name in table.columns]
+    if not present:
+        raise InputError(
+            f"{table.source}: has no column of forces; write force_x_N, force_y_N and force_z_N. It has "
+            f"{', '.join(table.columns)}"
+        )
+    force = np.column_stack([table.columns.get(name, np.zeros(table.rows)) for name in _FORCES])
+    for name in ("way", "time"):
+        if name in table.columns:
+            counts: Literal["way", "time"] = "way" if name == "way" else "time"
+            return MeasuredForce(table.columns[name], force, counts, along, on, relative_uncertainty, table.source)
+    return MeasuredForce(np.arange(table.rows, dtype=float), force, "point", along, on, relative_uncertainty, table.source)
+
+
+def _check(table: Table) -> None:
+    unknown = [name for name in table.columns if name not in _KNOWN and not name.startswith(_COMMANDS)]
+    moving = [name for name in table.columns if name in "xyzabc" or name.startswith(_COMMANDS)]
+    points, commands = [n for n in moving if n in "xyzabc"], [n for n in moving if n.startswith(_COMMANDS)]
+    if unknown or not moving:
+        what = f"a column {unknown[0]!r}, which no path has" if unknown else "no column of a path"
+        raise InputError(
+            f"{table.source}: has {what}; a path has axis commands (command_x_mm, command_c_deg) or tool points (x_mm, "
+            f"y_mm, z_mm, c_deg), and feed_mm_min, block, cutting, force_x_N, force_y_N, force_z_N"
+        )
+    if points and commands:
+        raise InputError(
+            f"{table.source}: has axis commands ({commands[0]}) and tool points ({points[0]}); take one of the two out"
+        )
+
+
+def _whole(table: Table, name: str) -> Array | None:
+    if name not in table.columns:
+        return None
+    values = table.columns[name]
+    if (values != np.round(values)).any():
+        raise InputError(
+            f"{table.source}: the column {name!r} holds {values[values != np.round(values)][0]:g}; count blocks"
+        )
+    return values

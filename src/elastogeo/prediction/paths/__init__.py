@@ -1,0 +1,23 @@
+"""Deviation of the tool along a path: what a path asks of the parameters, and what the tests know of that.
+
+Stands on the files of `prediction` and the rooms below it.
+"""
+
+from elastogeo.prediction.paths.ask import predict
+from elastogeo.prediction.paths.deviation import DEVIATION_COMPONENTS, PARTS, PieceDeviation, deviations
+from elastogeo.prediction.paths.predict import TOOL, path_deviation
+from elastogeo.prediction.paths.result import PartOfDeviation, PathPrediction
+from elastogeo.prediction.paths.simulation import simulated_points
+
+__all__ = [
+    "DEVIATION_COMPONENTS",
+    "PARTS",
+    "TOOL",
+    "PartOfDeviation",
+    "PathPrediction",
+    "PieceDeviation",
+    "deviations",
+    "path_deviation",
+    "predict",
+    "simulated_points",
+]
