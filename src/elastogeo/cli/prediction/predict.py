@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 import elastogeo as eg
 from elastogeo.cli.options import AsJson, Parameters, Report, TestPaths
 from elastogeo.errors import InputError
-from elastogeo.formats import read_forces
-from elastogeo.machine import Directions, PathForce
+
+if TYPE_CHECKING:
+    from elastogeo.machine import PathForce
+
+Directions = Literal["workpiece", "machine", "path"]
 
 
 def predict(
@@ -60,6 +63,8 @@ def _force(given: str | None, along: Directions) -> tuple[float, ...] | PathForc
     if given is None:
         return None
     if Path(given).exists():
+        from elastogeo.formats import read_forces
+
         return read_forces(given, along)
     try:
         return tuple(float(part) for part in given.split(","))
