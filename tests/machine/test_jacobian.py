@@ -27,17 +27,7 @@ from elastogeo.machine import (
 )
 from elastogeo.observe import MachineTest, Observations
 from elastogeo.sources import Situation, exact_response, linear_response, parameter_values, select_sources
-
-TOPOLOGIES = (
-    *("wFYXt", "wXYFt", "wXFYt", "wCAFYXZSt", "wCAYfXZt", "wFXYZBCt", "wXFYZBCt", "wCBXFYZt", "wAFXYZBt", "wBXFZYt"),
-    *("wZFXYCt", "wABCXYZUVWFt", "wFZWVUYXCBASt", "wSCFt"),
-)
-PIN_JOINTS = (
-    dict.fromkeys("XU", pin.JointModelPX)
-    | dict.fromkeys("YV", pin.JointModelPY)
-    | dict.fromkeys("ZW", pin.JointModelPZ)
-    | {"A": pin.JointModelRX, "B": pin.JointModelRY, "C": pin.JointModelRZ, "S": pin.JointModelRZ}
-)
+from tests.machine.pinocchio_loop import TOPOLOGIES, pinocchio_jacobian
 
 
 @pytest.mark.parametrize("angle", [0.0, 1e-300, 1e-9, 1e-5, 0.3, np.pi, 2 * np.pi - 1e-9, 7.0])
@@ -45,35 +35,6 @@ def test_a_rotation_vector_of_any_size_is_turned_exactly(angle: float) -> None:
     axes = np.random.default_rng(3).standard_normal((20, 3))
     vectors = angle * axes / np.linalg.norm(axes, axis=1)[:, np.newaxis]
     assert_allclose(rotation_matrix(vectors), [pin.exp3(vector) for vector in vectors], rtol=0, atol=2e-15)
-
-
-def pinocchio_jacobian(machine: Machine, commands: Array) -> tuple[Array, Array]:
-    """Jacobian (6, 6 n) and tool point, from pinocchio: after each joint six virtual ones, X Y Z A B C, at rest."""
-    model = pin.Model()
-    ends, first = {}, {}
-    for branch, side in ((reversed(machine.topology.workpiece), -1), (iter(machine.topology.tool), 1)):
-        parent = 0
-        for axis in branch:
-            joint = machine.joints[machine.index(axis)]
-            placement = pin.SE3(pin.exp3(np.array(joint.tilt)), np.array(joint.offset))
-            parent = model.addJoint(parent, PIN_JOINTS[axis](), placement, axis)
-            first[axis] = model.joints[parent].idx_q + 1
-            for component in COMPONENTS:
-                parent = model.addJoint(parent, PIN_JOINTS[component](), pin.SE3.Identity(), f"{axis}{component}")
-        ends[side] = parent
-    q = np.zeros(model.nq)
-    for axis, command in zip(machine.axes, commands, strict=True):
-        q[first[axis] - 1] = command if machine.in_tool_branch(axis) else -command
-    data = model.createData()
-    pin.computeJointJacobians(model, data, q)
-    tool = data.oMi[ends[1]].act(np.array(machine.tool))
-    about_ground = {side: pin.getJointJacobian(model, data, ends[side], pin.ReferenceFrame.WORLD) for side in ends}
-    at_tool = pin.SE3(np.eye(3), -tool).toActionMatrix()
-    blocks = []
-    for axis in machine.axes:
-        side = 1 if machine.in_tool_branch(axis) else -1
-        blocks.append(side * (at_tool @ about_ground[side])[:, first[axis] : first[axis] + 6])
-    return np.hstack(blocks), tool
 
 
 @pytest.mark.parametrize("topology", TOPOLOGIES)
