@@ -32,7 +32,7 @@ GROUPS = {
         "identify_drives", "calibrate",
     ),
     "Before and after a test": (
-        "plan", "compensate",
+        "plan", "write_program", "read_program", "compensate",
     ),
     "What comes back": ("Result", "Estimate", "MachineTest", "Campaign", "Machine"),
     "What may go wrong": ("ElastogeoError", "InputError", "UnsupportedError"),
@@ -51,6 +51,7 @@ RECIPES = {
     "A format of run files": "elastogeo.formats.run_files",
     "A format of logs": "elastogeo.formats.log_files",
     "Compensation files of a control": "elastogeo.formats.compensation_files",
+    "A language of programs": "elastogeo.formats.program_files",
     "An instrument": "elastogeo.observe.instruments",
     "An error source": "elastogeo.sources.families",
     "A result that shows itself": "elastogeo.report.view",

@@ -23,6 +23,7 @@ PAGES = (
     "rotary-axes.md",
     "positioning.md",
     "compensation.md",
+    "programs.md",
     "campaigns.md",
 )
 

@@ -34,9 +34,11 @@ if TYPE_CHECKING:
         read_log,
         read_machine,
         read_path,
+        read_program,
         read_run,
         read_test,
         simulate,
+        write_program,
     )
     from elastogeo.identification import (
         calibrate,
@@ -89,10 +91,12 @@ _HOME = {
     "read_log": "formats",
     "read_machine": "formats",
     "read_path": "formats",
+    "read_program": "formats",
     "read_run": "formats",
     "read_test": "formats",
     "simulate": "formats",
     "what_if": "identification",
+    "write_program": "formats",
 }
 """The room of each name of the face."""
 
@@ -128,10 +132,12 @@ __all__ = [
     "read_log",
     "read_machine",
     "read_path",
+    "read_program",
     "read_run",
     "read_test",
     "simulate",
     "what_if",
+    "write_program",
 ]
 
 

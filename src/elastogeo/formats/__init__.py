@@ -32,6 +32,17 @@ from elastogeo.formats.inspection import Inspected, InspectedColumn, inspect_fil
 from elastogeo.formats.log import Channel, Log
 from elastogeo.formats.log_files import LogFormat, log_formats, read_log
 from elastogeo.formats.logs.parquet import read_recording
+from elastogeo.formats.program_files import (
+    Flavour,
+    Reading,
+    Writing,
+    flavours,
+    program_text,
+    programs_of,
+    read_program,
+    read_program_bytes,
+    write_program,
+)
 from elastogeo.formats.recording_files import (
     INITIAL,
     SCHEMA,
@@ -62,6 +73,7 @@ __all__ = [
     "Clock",
     "CompensationFormat",
     "DeflectionDocument",
+    "Flavour",
     "Gap",
     "Inspected",
     "InspectedColumn",
@@ -69,11 +81,13 @@ __all__ = [
     "LogFormat",
     "OnOneClock",
     "PartHead",
+    "Reading",
     "RecordedChannel",
     "RunFormat",
     "Samples",
     "Simulation",
     "Table",
+    "Writing",
     "calibration_text",
     "compensation_format",
     "compensation_formats",
@@ -81,6 +95,7 @@ __all__ = [
     "encode_part",
     "example_test",
     "find_machine",
+    "flavours",
     "force_of_table",
     "full_turn",
     "inspect_file",
@@ -93,6 +108,8 @@ __all__ = [
     "part_name",
     "path_of_table",
     "poses_of",
+    "program_text",
+    "programs_of",
     "read_back",
     "read_calibration",
     "read_campaign",
@@ -104,6 +121,8 @@ __all__ = [
     "read_log",
     "read_machine",
     "read_path",
+    "read_program",
+    "read_program_bytes",
     "read_recording",
     "read_run",
     "read_simulation",
@@ -117,6 +136,7 @@ __all__ = [
     "simulate",
     "standing_gaps",
     "write_calibration",
+    "write_program",
     "write_runs",
     "write_whole",
 ]

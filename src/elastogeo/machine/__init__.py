@@ -23,6 +23,7 @@ from elastogeo.machine.jacobian import COMPONENTS, carried_to, jacobian
 from elastogeo.machine.machine import DOWN, Joint, Machine
 from elastogeo.machine.places import Place
 from elastogeo.machine.programs.blocks import PLANE_AXES, Arc, Block, Comment, Dwell, Line, Rapid, Stop
+from elastogeo.machine.programs.limits import ProgramLimits, check_limits, check_tool, only_moving
 from elastogeo.machine.programs.motion import MovesOf, ProgramPath
 from elastogeo.machine.programs.packed import PROGRAM_AXES, Packing
 from elastogeo.machine.programs.program import Program
@@ -123,6 +124,7 @@ __all__ = [
     "Pressure",
     "Pressures",
     "Program",
+    "ProgramLimits",
     "ProgramPath",
     "Rapid",
     "Resolution",
@@ -142,6 +144,8 @@ __all__ = [
     "cantilever",
     "carried_to",
     "check_commands",
+    "check_limits",
+    "check_tool",
     "coefficients_of",
     "engagement_of",
     "follow",
@@ -151,6 +155,7 @@ __all__ = [
     "mean_force",
     "measured_tool",
     "motion_of",
+    "only_moving",
     "parse_topology",
     "path_of_commands",
     "path_of_points",

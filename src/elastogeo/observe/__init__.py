@@ -2,7 +2,7 @@
 
 from elastogeo.observe.bars.ball_bar import LoadedBallBar
 from elastogeo.observe.bars.unloaded import BallBar
-from elastogeo.observe.campaign import Askable, Campaign, campaign_of, with_questions
+from elastogeo.observe.campaign import Askable, Campaign, campaign_of, short_name, with_questions
 from elastogeo.observe.circle import PLANES, Circle, plane_directions
 from elastogeo.observe.contradictions import check_runs, turning
 from elastogeo.observe.covariance import ASSUMED
@@ -15,6 +15,7 @@ from elastogeo.observe.measurement import KnownInfluence, MachineTest, Question
 from elastogeo.observe.nests import BallMotion, SphereNest
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
 from elastogeo.observe.positioning import Approaches, Positioning, approaches, distinct
+from elastogeo.observe.procedure import Procedure
 from elastogeo.observe.rollers.ball_roller import BallRoller, Pressed
 from elastogeo.observe.rollers.rig import Rig
 from elastogeo.observe.run import Run
@@ -53,6 +54,7 @@ __all__ = [
     "ObservedInfluence",
     "Positioning",
     "Pressed",
+    "Procedure",
     "Question",
     "Residue",
     "Respond",
@@ -80,6 +82,7 @@ __all__ = [
     "plane_directions",
     "sensitivities",
     "sensor_twist",
+    "short_name",
     "turning",
     "with_questions",
 ]

@@ -8,10 +8,24 @@ from math import inf
 
 from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
-from elastogeo.machine import About, Force, Forces, Length, Machine, Resolution, Workpiece
+from elastogeo.machine import (
+    About,
+    Force,
+    Forces,
+    Length,
+    Machine,
+    Program,
+    ProgramLimits,
+    Resolution,
+    Workpiece,
+    check_limits,
+    check_tool,
+    only_moving,
+)
 from elastogeo.observe.covariance import with_covariance
 from elastogeo.observe.instruments import instrument_of
 from elastogeo.observe.observations import Observations
+from elastogeo.observe.procedure import Procedure
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Setup
 
@@ -147,6 +161,26 @@ class MachineTest(ByValue):
         """True parameters by name, if the readings of all runs are simulated from the same; empty if not, or not known."""
         first = self.runs[0].truth
         return first if self.simulated and all(run.truth == first for run in self.runs) else {}
+
+    def program(self, procedure: Procedure | None = None, limits: ProgramLimits | None = None) -> Program:
+        """The program that moves the machine as this test wants it: the instrument's own hook, checked.
+
+        Parameters
+        ----------
+        procedure : Procedure, optional
+            What it does around the readings.
+        limits : ProgramLimits, optional
+            Of feed, radius and tool; the travel of the axes is the machine's and always kept.
+
+        Raises
+        ------
+        PathError
+            If the machine cannot make it: with the axis, the value and the limit.
+        """
+        limits = limits or ProgramLimits()
+        check_tool(getattr(self.setup, "tool", None) or self.machine.tool, limits)
+        blocks = self.setup.program(self.machine, self.runs, procedure or Procedure())
+        return check_limits(Program(self.name, list(only_moving(blocks))), self.machine, limits)
 
     def observations(self) -> tuple[Observations, ...]:
         """The observations of every run that holds readings, in order."""

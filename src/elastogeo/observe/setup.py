@@ -9,9 +9,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from elastogeo.machine import Array, Machine
+from elastogeo.machine import Array, Block, Comment, Machine, Stop
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.observations import Observations
+from elastogeo.observe.procedure import Procedure, ordered
 from elastogeo.observe.run import Run
 from elastogeo.observe.template import Template
 
@@ -93,6 +94,17 @@ class Setup(ABC):
     def observe_all(self, machine: Machine, runs: Sequence[Run]) -> tuple[Observations, ...]:
         """The observations of all runs of a test, where one may tell something of another; by default one `observe` each."""
         return tuple(self.observe(machine, run) for run in runs)
+
+    def program(self, machine: Machine, runs: Sequence[Run], procedure: Procedure) -> Sequence[Block]:  # noqa: ARG002
+        """The blocks of a program that moves the machine as the runs want it; by default it only stops for each.
+
+        Raises
+        ------
+        PathError
+            If the machine cannot make the path.
+        """
+        says = [Stop(f"this instrument needs no motion: read run {run.name}") for run in ordered(runs, procedure.order)]
+        return [Comment("no axis moves"), *says]
 
     @classmethod
     def template_for(cls, machine: Machine) -> Template | None:  # noqa: ARG003

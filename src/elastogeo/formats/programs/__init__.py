@@ -1,0 +1,1 @@
+"""Languages of controls: each file writes and reads one, and registers itself with `program_files`."""
