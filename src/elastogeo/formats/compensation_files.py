@@ -243,3 +243,94 @@ def number(text: str, what: str, source: str) -> float:
     if value - value != 0:
         raise FormatError(f"{source}: {what} is {text[:40]!r}, which is no number; correct it")
     return value
+
+
+def displacements_only(table: ErrorTable) -> str:
+    """Why a control that moves one axis by the position of another cannot take a table, or nothing."""
+    if table.is_own or not table.is_angular:
+        return ""
+    return "it corrects displacements, and the angle of a rotary axis about itself"
+
+
+def axis_names(settings: Settings) -> dict[str, str]:
+    """What the control calls each axis: of a setting `axes` such as `X=X1,Y=Y1`.
+
+    Raises
+    ------
+    InputError
+        If it is not of that form.
+    """
+    pairs = [pair.split("=") for pair in settings["axes"].split(",")]
+    if any(len(pair) != 2 or not all(pair) for pair in pairs):
+        raise InputError(f"axes is {settings['axes']!r}; give each letter with its name in the control, as in X=X1,Y=Y1")
+    return {letter.strip(): name.strip() for letter, name in pairs}
+
+
+def name_of(axis: str, names: Mapping[str, str]) -> str:
+    """What the control calls an axis.
+
+    Raises
+    ------
+    InputError
+        If nothing says it.
+    """
+    if axis not in names:
+        raise InputError(f"nothing says what the control calls {axis}; add it to axes, as in {axis}={axis}1")
+    return names[axis]
+
+
+def letter_of(name: str, names: Mapping[str, str], source: str) -> str:
+    """The letter of an axis that the control calls so.
+
+    Raises
+    ------
+    FormatError
+        If there is none.
+    """
+    found = [letter for letter, called in names.items() if called == name]
+    if not found:
+        raise FormatError(f"{source}: has the axis {name}, which is none of {', '.join(names.values())}; say axes")
+    return found[0]
+
+
+def step_of(settings: Settings) -> float | None:
+    """The setting `step`, in the unit of the control; None where it is left to the program.
+
+    Raises
+    ------
+    InputError
+        If it is no number.
+    """
+    return None if settings["step"] == "auto" else _given(settings, "step")
+
+
+def whole(settings: Settings, name: str) -> int:
+    """A setting that is a whole number.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    value = _given(settings, name)
+    if value != int(value):
+        raise InputError(f"{name} is {settings[name]!r}; give a whole number")
+    return int(value)
+
+
+def _given(settings: Settings, name: str) -> float:
+    try:
+        return number(settings[name], name, "settings")
+    except FormatError:
+        raise InputError(f"{name} is {settings[name]!r}; give a number") from None
+
+
+SIGN = Setting(
+    "sign", "error", "what the file holds: the error (actual less nominal), or the correction", ("error", "correction")
+)
+STEP = Setting("step", "auto", "between points, in mm or degrees")
+
+
+def signed(settings: Settings) -> float:
+    """+1 where a file holds the error, -1 where it holds the correction."""
+    return 1.0 if settings["sign"] == "error" else -1.0
