@@ -8,12 +8,13 @@ from typing import Annotated
 import typer
 
 import elastogeo as eg
-from elastogeo.cli.options import AsJson, Report
+from elastogeo.cli.options import AsJson, Parameters, Report, TestPaths
 from elastogeo.errors import InputError
 
 
 def compensate(
-    tests: Annotated[list[Path], typer.Argument(metavar="TEST...", help="Folders of positioning tests, one an axis.")],
+    tests: TestPaths,
+    parameters: Parameters = None,
     control: Annotated[
         str, typer.Option(help="linuxcnc, sinumerik-lec, sinumerik-cec, heidenhain, fanuc, isg, csv.")
     ] = "linuxcnc",
@@ -31,23 +32,27 @@ def compensate(
 ) -> None:
     """Write the compensation files of a control, and say what is left after them.
 
-    Only what the tests determine, and what is greater than its uncertainty, is written; the rest is named.
+    Of positioning tests the means by target are written; of other tests, or with --parameter, the parameters that they
+    determine together. Only what is greater than its uncertainty is written; the rest is named.
 
     \b
-    Example:
-      elastogeo compensate axis-x --control linuxcnc --output for-the-control
+    Examples:
+      elastogeo compensate axis-x axis-y --control linuxcnc --output for-the-control
+      elastogeo compensate ball-bar --control sinumerik-cec
     """
     from elastogeo.cli import screen
 
     with screen.progress("reading the runs", quiet=as_json) as step:
-        asked = [eg.read_test(test) for test in tests]
+        read = [eg.read_test(test) for test in tests] if not parameters else []
+        by_target = bool(read) and all(test.instrument == "positioning" for test in read)
+        asked = None if by_target else eg.read_campaign(tests)
         step("evaluating")
-        found = eg.compensate(
-            *(eg.evaluate_positioning(one) for one in asked),
-            control=control,
-            settings=_pairs(setting, "--set", "type=1"),
-            zero_at=_zeros(zero),
+        results = (
+            [eg.identify(asked, parameters=parameters)]
+            if asked is not None
+            else [eg.evaluate_positioning(test) for test in read]
         )
+        found = eg.compensate(*results, control=control, settings=_pairs(setting, "--set", "type=1"), zero_at=_zeros(zero))
     if output and found.files:
         written = found.write(output)
         if not as_json:

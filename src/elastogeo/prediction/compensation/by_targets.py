@@ -17,7 +17,7 @@ from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.identification import Effect, PositioningResults, effects_of, systems_of
 from elastogeo.machine import COMPONENTS, Array, ErrorTable, motion_of
 from elastogeo.observe import Positioning
-from elastogeo.prediction.compensation.parts import ErrorPart, FoundError, expanded
+from elastogeo.prediction.compensation.parts import ErrorPart, FoundError, expanded, zero_within
 
 ACROSS = 0.999
 """Cosine of a sensor's direction and an axis of the foundation from which it reads that component."""
@@ -45,7 +45,7 @@ def found_by_targets(found: PositioningResults, zero_at: float | None = None) ->
     sides = [k for k in (0, 1) if found.targets.count[:, k].any()]
     usable = np.flatnonzero(found.targets.count[:, sides].all(axis=1))
     target = found.targets.target[usable]
-    zero = _zero(target, zero_at, found.axis)
+    zero = zero_within(found.axis, float(target.min()), float(target.max()), zero_at)
     readings = _from_zero(_by_cycle(found, place, sign * found.reading)[:, usable][:, :, sides], target, zero)
     if np.isnan(readings).all(axis=0).any():
         raise UnsupportedError(
@@ -80,15 +80,6 @@ def _component(found: PositioningResults) -> tuple[str, float]:
             f"compensate from an identification of several tests"
         )
     return COMPONENTS[k + 3 * found.angular], float(np.sign(direction[k]))
-
-
-def _zero(target: Array, wanted: float | None, axis: str) -> float:
-    low, high = float(target.min()), float(target.max())
-    if wanted is None:
-        return min(max(0.0, low), high)
-    if not low <= wanted <= high:
-        raise InputError(f"the error of {axis} is to be zero at {wanted:g}, and was read from {low:g} to {high:g} only")
-    return wanted
 
 
 def _by_cycle(found: PositioningResults, place: Places, reading: Array) -> Array:

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from elastogeo.errors import InputError
 from elastogeo.formats import CompensationFormat, compensation_format, compensation_text, read_back
-from elastogeo.identification import PositioningResults
+from elastogeo.identification import Identification, PositioningResults
 from elastogeo.observe import Campaign, campaign_of
+from elastogeo.prediction.compensation.by_parameters import found_by_parameters
 from elastogeo.prediction.compensation.by_targets import found_by_targets
 from elastogeo.prediction.compensation.parts import ErrorPart, FoundError
 from elastogeo.prediction.compensation.result import CompensatedError, Compensation, LeftOut
@@ -15,7 +16,7 @@ from elastogeo.prediction.compensation.verdict import checks
 
 
 def compensate(
-    *results: PositioningResults,
+    *results: PositioningResults | Identification,
     control: str = "linuxcnc",
     settings: Mapping[str, str] | None = None,
     zero_at: Mapping[str, float] | None = None,
@@ -28,8 +29,9 @@ def compensate(
 
     Parameters
     ----------
-    *results : PositioningResults
-        Of one machine; one for each axis and component.
+    *results : PositioningResults or Identification
+        Of one machine; each error from one of them. Of a positioning test the means by target count, of an identification
+        the parameters.
     control : str
         `linuxcnc`, `sinumerik-lec`, `sinumerik-cec`, `heidenhain`, `fanuc`, `isg`, `csv`.
     settings : mapping of str to str, optional
@@ -44,7 +46,7 @@ def compensate(
     """
     form = compensation_format(control)
     values = form.with_defaults(settings or {})
-    found = [found_by_targets(one, (zero_at or {}).get(one.axis)) for one in results]
+    found = [error for one in results for error in _found(one, zero_at or {})]
     campaign = _campaign(results, found)
     left = [out for one in found for out in _left_out(one, form)]
     chosen = {
@@ -65,15 +67,23 @@ def compensate(
     )
 
 
-def _campaign(results: Sequence[PositioningResults], found: Sequence[FoundError]) -> Campaign:
+def _found(result: PositioningResults | Identification, zero_at: Mapping[str, float]) -> tuple[FoundError, ...]:
+    if isinstance(result, Identification):
+        return found_by_parameters(result, zero_at)
+    return (found_by_targets(result, zero_at.get(result.axis)),)
+
+
+def _campaign(results: Sequence[PositioningResults | Identification], found: Sequence[FoundError]) -> Campaign:
     if not results:
         raise InputError("there is nothing to compensate; give one result or more")
     names = [one.table.name for one in found]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         raise InputError(f"two results are of {twice[0]}; give the one that is to be made good")
-    tests = [one.test for one in results]
-    return campaign_of(tests if len(tests) > 1 else tests[0])
+    asked = [one.campaign if isinstance(one, Identification) else campaign_of(one.test) for one in results]
+    if len(asked) == 1:
+        return asked[0]
+    return campaign_of([test for campaign in asked for test in campaign.tests.values()])
 
 
 def _left_out(found: FoundError, form: CompensationFormat) -> Iterator[LeftOut]:

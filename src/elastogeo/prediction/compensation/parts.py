@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from elastogeo.equality import ByValue
+from elastogeo.errors import InputError
 from elastogeo.estimate import coverage_factor, effective_degrees_of_freedom
 from elastogeo.machine import Array, ErrorTable
 
@@ -72,6 +73,21 @@ class FoundError(ByValue):
         table = self.table
         value = np.sum([part.value for part in chosen], axis=0)
         return ErrorTable(table.axis, table.component, table.position, value, table.uncertainty)
+
+
+def zero_within(axis: str, low: float, high: float, wanted: float | None) -> float:
+    """The position whose error counts as zero: as wanted, else 0, or the end nearest to it.
+
+    Raises
+    ------
+    InputError
+        If what is wanted is outside.
+    """
+    if wanted is None:
+        return min(max(0.0, low), high)
+    if not low <= wanted <= high:
+        raise InputError(f"the error of {axis} is to be zero at {wanted:g}, and was read from {low:g} to {high:g} only")
+    return wanted
 
 
 def expanded(contributions: Array, freedom: Array) -> Array:
