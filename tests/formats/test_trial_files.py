@@ -256,3 +256,5 @@ def test_a_weight_on_the_table_is_in_kilograms(tmp_path):
     (folder / "test.toml").write_text((folder / "test.toml").read_text().replace("mass_kg = 250", "mass_kg = -1"))
     with pytest.raises(InputError, match="the mass not negative"):
         read_test(folder)
+    (folder / "test.toml").write_text((folder / "test.toml").read_text().replace("mass_kg = -1\n", ""))
+    assert read_test(folder).workpiece == Workpiece(None, (0.0, 100.0, 50.0))

@@ -274,7 +274,7 @@ def _reads_angles(campaign: Campaign) -> bool:
 def _weighed(campaign: Campaign) -> bool:
     """Whether known weights load the machine, so that compliance shows without a force at the tool."""
     carriages = any(joint.mass for joint in campaign.machine.joints)
-    return carriages or any(test.workpiece is not None and test.workpiece.mass > 0 for test in campaign.tests.values())
+    return carriages or any(test.workpiece is not None and bool(test.workpiece.mass) for test in campaign.tests.values())
 
 
 def _goes_around(systems: Systems) -> bool:

@@ -110,7 +110,7 @@ def _of_test(name: str, test: MachineTest, systems: Systems) -> Iterator[tuple[_
 def _beside_weights(effect: Effect, test: MachineTest, systems: Systems) -> Effect:
     """The effect as it is where weights load the machine too: what stretches the force does not stretch them."""
     masses = [joint.mass for joint in test.machine.joints]
-    masses += [test.workpiece.mass] if test.workpiece else []
+    masses += [test.workpiece.mass or 0.0] if test.workpiece else []
     if not effect.stretch.any() or not any(masses):
         return effect
     changes = [

@@ -30,19 +30,21 @@ class Workpiece:
 
     Attributes
     ----------
-    mass : float [kg in files; N s^2/mm inside]
+    mass : float or None [kg in files; N s^2/mm inside]
+        None if it is not known: then it loads nothing here, and what gives way under it is asked for as `CW_AAY(w)`.
     centre : tuple of 3 float [mm]
         Its centre of gravity in the frame of the last workpiece-branch carriage, the table.
     """
 
-    mass: Mass
+    mass: Mass | None = None
     centre: Point = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
         """Refuse what is no mass."""
-        if not (isfinite(self.mass) and self.mass >= 0 and all(map(isfinite, self.centre))):
+        mass = self.mass or 0.0
+        if not (isfinite(mass) and mass >= 0 and all(map(isfinite, self.centre))):
             raise MachineError(
-                f"a workpiece has a mass of {self.mass * 1e3:g} kg and its centre of gravity at {self.centre} mm; both "
+                f"a workpiece has a mass of {mass * 1e3:g} kg and its centre of gravity at {self.centre} mm; both "
                 f"must be finite, and the mass not negative"
             )
 

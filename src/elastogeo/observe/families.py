@@ -23,13 +23,13 @@ def family_of(machine: Machine, observations: Iterable[Observations]) -> str | N
     machine : Machine
         Carriages with a mass load the joints by themselves, which no family counts on.
     observations : iterable of Observations
-        Of all runs. A probe across a joint, and a weight on the table, belong to no family.
+        Of all runs. A probe across a joint, and a known weight on the table, belong to no family.
     """
     if any(joint.mass for joint in machine.joints):
         return None
     found = BAR
     for run in observations:
-        if run.span is not None or run.weight is not None:
+        if run.span is not None or (run.weight is not None and run.weight.mass):
             return None
         if run.wrench[:, 3:].any() or run.direction[:, 3:].any():
             return SIX

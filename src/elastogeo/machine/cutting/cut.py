@@ -34,6 +34,8 @@ class Cut:
     normal_to: str = "left"
 
     def __post_init__(self) -> None:
-        """Refuse a side that is none."""
+        """Refuse a side that is none, and a weight that is not known."""
+        if self.workpiece is not None and self.workpiece.mass is None:
+            raise InputError("the mass of the workpiece is not given; state mass_kg, or leave the workpiece out")
         if self.normal_to not in SIDES:
             raise InputError(f"the normal points to {self.normal_to!r}; write left or right, seen along the travel")
