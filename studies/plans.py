@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 import elastogeo as eg
 from elastogeo.machine import Joint, Machine, parse_topology
-from elastogeo.planning import Candidate, Means, Plan, ReadingNoise, Unknowns, candidates, unknowns, whitened
+from elastogeo.planning import Candidate, Means, Plan, ReadingNoise, Unknowns, candidates, unknowns, whitened, workspace
 from elastogeo.prediction import functionals, virtual_observations
 
 Array = NDArray[np.float64]
@@ -26,6 +26,9 @@ KNOWN = 0.2
 
 POSES = 900
 """Poses at which the compliance is judged."""
+
+WORKSPACE_POSES = 40
+"""Poses of the workspace goal, six directions each."""
 
 BLOCK = 500
 """Random sets that are judged at once."""
@@ -56,19 +59,25 @@ class Judge:
     offered : tuple of Candidate
     rows : array, shape (n, q, r)
         Of each candidate, all that it tells, in scaled parameters; short ones filled with zeros.
-    workspace : array, shape (m, r)
+    poses : array, shape (m, r)
         Compliance along X, Y or Z at random poses of the travel, which no plan has seen.
     missed : array, shape (m,)
         Variance of each that no candidate takes off; so of the parameters, `unseen`, shape (p,).
+    workspace : array, shape (w, r)
+        What the workspace goal is about, at poses that no plan has seen.
+    outside : array, shape (w,)
+        Variance of each that no candidate takes off.
     basis : array, shape (p, r)
     """
 
     means: Means
     offered: tuple[Candidate, ...]
     rows: Array
-    workspace: Array
+    poses: Array
     missed: Array
     unseen: Array
+    workspace: Array
+    outside: Array
     basis: Array
 
     def measures(self, sets: Sequence[Sequence[int]]) -> dict[str, Array]:
@@ -83,7 +92,7 @@ class Judge:
             rows = self.rows[taken].reshape(len(taken), -1, self.rows.shape[2])
             precision = np.eye(rows.shape[2]) + rows.transpose(0, 2, 1) @ rows
             S = np.linalg.inv(precision)
-            worst = np.max(np.sum((self.workspace @ S) * self.workspace, axis=2) + self.missed, axis=1)
+            worst = np.max(np.sum((self.workspace @ S) * self.workspace, axis=2) + self.outside, axis=1)
             alone = np.sum((self.basis @ S) * self.basis, axis=2) + self.unseen
             known = np.sum(KNOWN**2 / (KNOWN**2 + alone), axis=1)
             found.append((np.linalg.slogdet(precision)[1], known, -np.sqrt(worst) * 1e6))
@@ -99,14 +108,14 @@ class Judge:
         """Whether each compliance is supported by a set, shape (m,)."""
         _, values, turns = np.linalg.svd(self.rows[list(taken)].reshape(-1, self.rows.shape[2]))
         seen = turns[: int(np.sum(values > 1e-9 * values[0]))]
-        left = self.workspace - self.workspace @ seen.T @ seen
+        left = self.poses - self.poses @ seen.T @ seen
         lost = np.sqrt(np.sum(left**2, axis=1) + self.missed)
-        return np.asarray(lost < 1e-6 * np.sqrt(np.sum(self.workspace**2, axis=1) + self.missed))
+        return np.asarray(lost < 1e-6 * np.sqrt(np.sum(self.poses**2, axis=1) + self.missed))
 
     def data_uncertainty(self, taken: Sequence[int]) -> Array:
         """Standard uncertainty of each compliance from the readings alone, shape (m,) [nm/N]; right for supported ones."""
         rows = self.rows[list(taken)].reshape(-1, self.rows.shape[2])
-        return np.asarray(np.linalg.norm(self.workspace @ np.linalg.pinv(rows, rcond=1e-9), axis=1) * 1e6)
+        return np.asarray(np.linalg.norm(self.poses @ np.linalg.pinv(rows, rcond=1e-9), axis=1) * 1e6)
 
 
 def judge(means: Means, count: int, poses: int = POSES, seed: int = 7) -> Judge:
@@ -120,10 +129,15 @@ def judge(means: Means, count: int, poses: int = POSES, seed: int = 7) -> Judge:
     for k, own in enumerate(told):
         rows[k, : len(own)] = own @ basis
     functional = compliances(means, asked, poses, seed)
+    goal = workspace(means, asked, WORKSPACE_POSES, seed).functionals
+    inside, missed, own, outside = *_split(functional, basis), *_split(goal, basis)
+    return Judge(means, offered, rows, inside, missed, 1 - np.sum(basis**2, axis=1), own, outside, basis)
+
+
+def _split(functional: Array, basis: Array) -> tuple[Array, Array]:
+    """What of functionals lies in a space, and the variance of the rest."""
     inside = functional @ basis
-    missed = np.maximum(np.sum(functional**2, axis=1) - np.sum(inside**2, axis=1), 0.0)
-    missed[missed < 1e-20 * np.sum(functional**2, axis=1)] = 0.0
-    return Judge(means, offered, rows, inside, missed, 1 - np.sum(basis**2, axis=1), basis)
+    return inside, np.sum((functional - inside @ basis.T) ** 2, axis=1)
 
 
 def compliances(means: Means, asked: Unknowns, poses: int, seed: int) -> Array:
@@ -174,7 +188,9 @@ def main(arguments: list[str] | None = None) -> int:
         for goal, best in random.items():
             plan = eg.plan(five.means, tests=k, goal=goal, chosen_from=five.offered)
             own = five.measures([five.number(plan)])[goal][0]
-            print(f"{k:>3}  {goal:<12}{abs(best):>16.3f}{abs(own):>10.3f}{'' if own > best else '   NOT BETTER'}", flush=True)
+            print(
+                f"{k:>3}  {goal:<12}{abs(best):>16.3f}{abs(own):>10.3f}{'' if own > best else '   NOT BETTER'}", flush=True
+            )
     few = judge(Means(hermle()), 80)
     plan = eg.plan(few.means, tests=3, goal="information", chosen_from=few.offered)
     exact = exhaustive_information(few, 3)

@@ -8,6 +8,7 @@ import pytest
 import elastogeo as eg
 from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.planning import Candidate, Means, Plan, ReadingNoise, candidates, unknowns, whitened
+from elastogeo.report import view_of
 
 HERMLE = eg.read_machine("hermle_c50")
 
@@ -61,3 +62,84 @@ def test_what_cannot_be_planned_is_refused() -> None:
         eg.plan(HERMLE, tests=3, parameters="E_XX1")
     with pytest.raises(InputError, match=r"no test of 'ball-barr' can be planned; instruments that can: ball-bar"):
         candidates(Means(HERMLE), ["ball-barr"], 4)
+
+
+def test_asked_for_c_xxx_the_planner_proposes_the_probe_across_the_carriage() -> None:
+    """Done-when 1 of issue 10: no test between tool and workpiece tells C_XXX from C_XXY; a probe across X does."""
+    means = Means(HERMLE, readings=12)
+    found = eg.plan(means, parameters="C_XXX", count=20)
+    assert [one.candidate.test.instrument for one in found.tests] == ["joint-probe"]
+    assert found.proposed == ("joint-probe",)
+    assert found["C_XXX"].known == "alone"
+    assert found["C_XXY"].known == "unseen"
+    assert [why.name for why in found.reasons] == ["C_XXX"]
+    assert found.reasons[0].alike == ("C_XXX", "C_XXY", "C_XXZ", "C_XXA")
+    other = eg.plan(means, parameters="C_XXY", count=20)
+    assert getattr(other.tests[0].candidate.setup, "across") == ("Y",)  # noqa: B009
+    told = str(other)
+    assert "No test between tool and workpiece tells C_XXY by itself" in "\n".join(view_of(other).notes)
+    assert "C_XXY" in told
+
+
+@pytest.mark.parametrize(("name", "instrument"), [("C_XBY", "displacement-probes"), ("C_ACX", "sensor-frame")])
+def test_what_bars_do_not_tell_and_others_do_is_proposed_too(name: str, instrument: str) -> None:
+    """A bar sees only C_df + C_fd; forces across the reading tell them apart, and a twist tells what lever a force has."""
+    found = eg.plan(Means(HERMLE, readings=12), parameters=name, tests=3, count=20)
+    assert found.proposed == (instrument,)
+    assert found.reasons == ()
+
+
+@pytest.mark.parametrize(
+    ("instrument", "tools", "rank"),
+    [("static-force", (), 91), ("displacement-probes", (), 91), ("sensor-frame", (), 123), ("loaded-ball-bar", (), 56)],
+)
+def test_candidates_of_each_instrument_reach_its_golden_rank(instrument: str, tools: tuple[()], rank: int) -> None:
+    means = Means(HERMLE, readings=12, tools=tools)
+    drawn = candidates(means, [instrument], 110 if instrument == "static-force" else 30)
+    rows = np.vstack(whitened([one.test for one in drawn], unknowns(HERMLE), ReadingNoise()))
+    values = np.linalg.svd(rows, compute_uv=False)
+    assert int((values > 1e-9 * values[0]).sum()) == rank
+
+
+def test_a_probe_across_x_adds_five_then_fifteen() -> None:
+    """Golden: 91 -> 96 with one direction at the carriage's origin, 106 with three; each with two force levels."""
+    asked, noise = unknowns(HERMLE), ReadingNoise()
+    between = whitened([one.test for one in candidates(Means(HERMLE), ["displacement-probes"], 30)], asked, noise)
+    across = whitened([one.test for one in candidates(Means(HERMLE), ["joint-probe"], 3)], asked, noise)
+
+    def rank(rows: list[np.ndarray]) -> int:  # type: ignore[type-arg]
+        values = np.linalg.svd(np.vstack(rows), compute_uv=False)
+        return int((values > 1e-9 * values[0]).sum())
+
+    assert [rank(between), rank([*between, *across[:1]]), rank([*between, *across])] == [91, 96, 106]
+
+
+def test_every_candidate_is_within_the_travel_and_clear(some: tuple[Candidate, ...]) -> None:
+    """By its own frames: the bar stays 40 degrees from the spindle and the post, the spindle before the table."""
+    for one in some:
+        seen = one.test.observations()[0]
+        low, high = np.array([joint.travel for joint in HERMLE.joints]).T
+        assert (seen.commands >= low).all()
+        assert (seen.commands <= high).all()
+        tilt = seen.commands[:, HERMLE.index("A")]
+        turn = seen.commands[:, HERMLE.index("C")]
+        assert np.ptp(turn) <= 2 * np.pi + 1e-9
+        bar, up = seen.direction[:, :3], np.array([0.0, 0.0, 1.0])
+        normal = np.column_stack([np.zeros_like(tilt), np.sin(tilt), np.cos(tilt)])  # the workpiece turns by minus A
+        assert (-bar @ up <= np.cos(np.deg2rad(40)) + 1e-9).all()
+        assert (np.sum(-bar * normal, axis=1) <= np.cos(np.deg2rad(40)) + 1e-9).all()
+        assert (normal @ up >= np.cos(np.deg2rad(95)) - 1e-9).all()
+
+
+def test_tests_made_already_are_kept(some: tuple[Candidate, ...], planned: Plan) -> None:
+    """A plan beside half of the tests of another one adds what is missing, and knows at least as much."""
+    means = Means(HERMLE, readings=18)
+    half = {one.candidate.name: one.candidate.test for one in planned.tests[:4]}
+    more = eg.plan(means, tests=4, made=half, chosen_from=some)
+    assert more.rank == 56
+    assert more.supported == 1.0
+    assert more.made is not None
+    assert list(more.made.tests) == list(half)
+    alone = eg.plan(means, tests=4, chosen_from=some)
+    assert more.rank > alone.rank
+    assert more.tools[0].worst_with_prior < alone.tools[0].worst_with_prior

@@ -13,6 +13,7 @@ from elastogeo.planning.plan import GOALS, plan
 from elastogeo.planning.reach import Reach, reach_of
 from elastogeo.planning.reasons import Exchange, Probe, Reason, Remedy, reason_for
 from elastogeo.planning.result import ALONE, IN_A_SUM, UNSEEN, Expectation, NextBest, Plan, PlannedTest, ToolSupport
+from elastogeo.planning.workspace import Workspace, workspace
 
 __all__ = [
     "ALONE",
@@ -37,6 +38,7 @@ __all__ = [
     "Remedy",
     "ToolSupport",
     "Unknowns",
+    "Workspace",
     "candidates",
     "ceiling",
     "family_ceiling",
@@ -47,4 +49,5 @@ __all__ = [
     "reason_for",
     "unknowns",
     "whitened",
+    "workspace",
 ]

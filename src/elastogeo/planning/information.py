@@ -27,9 +27,6 @@ from elastogeo.sources import Source, design_rows, select_sources
 SAME_POSE = 1e-6
 """Commands [mm, rad] and sensitive directions that differ by less are the same."""
 
-MOST_ROWS = 10
-"""Rows of a candidate that are kept while choosing; the rest of a test tells less, and counts in the answer."""
-
 TOLD = 1e-7
 """Directions that a test tells this much less of than of its best one are rounding error."""
 
@@ -86,7 +83,7 @@ def unknowns(machine: Machine, reciprocal: bool = False, scales: Mapping[str, fl
     return Unknowns(machine, sources, sizes)
 
 
-def whitened(tests: Sequence[MachineTest], asked: Unknowns, noise: ReadingNoise, most: int | None = None) -> list[Array]:
+def whitened(tests: Sequence[MachineTest], asked: Unknowns, noise: ReadingNoise) -> list[Array]:
     """What each test tells, as rows in scaled parameters whose errors are independent with unit standard deviation.
 
     Parameters
@@ -95,24 +92,20 @@ def whitened(tests: Sequence[MachineTest], asked: Unknowns, noise: ReadingNoise,
     asked : Unknowns
         p parameters.
     noise : ReadingNoise
-    most : int, optional
-        Rows to keep of each, those that tell most; all if not given.
 
     Returns
     -------
     list of array, shape (q, p)
     """
-    return rows_of([test.observations() for test in tests], asked, noise, most)
+    return rows_of([test.observations() for test in tests], asked, noise)
 
 
-def rows_of(
-    observed: Sequence[Sequence[Observations]], asked: Unknowns, noise: ReadingNoise, most: int | None = None
-) -> list[Array]:
+def rows_of(observed: Sequence[Sequence[Observations]], asked: Unknowns, noise: ReadingNoise) -> list[Array]:
     """As `whitened`, of tests by the observations of their runs."""
     set_up = select_sources(asked.machine, SET_UP)
     sizes = np.concatenate([asked.scales, np.full(len(set_up), noise.set_up)])
     designs = _designs((*asked.sources, *set_up), sizes, asked.machine, [run for runs in observed for run in runs])
-    return [_compressed(_test_rows(runs, [next(designs) for _ in runs], asked.nominal, noise), most) for runs in observed]
+    return [_compressed(_test_rows(runs, [next(designs) for _ in runs], asked.nominal, noise)) for runs in observed]
 
 
 def _designs(sources: Sequence[Source], sizes: Array, machine: Machine, runs: Sequence[Observations]) -> Iterator[Array]:
@@ -201,8 +194,8 @@ def _contrasts(count: int) -> Array:
     return np.asarray(contrasts / np.linalg.norm(contrasts, axis=1)[:, np.newaxis])
 
 
-def _compressed(rows: Array, most: int | None) -> Array:
-    """The same information in as few rows as it has directions, or in the `most` that tell most."""
+def _compressed(rows: Array) -> Array:
+    """The same information in as few rows as it has directions: a circle without turning axes has up to nine."""
     if not len(rows):
         return rows
     if not np.isfinite(rows).all():
@@ -210,4 +203,4 @@ def _compressed(rows: Array, most: int | None) -> Array:
     strength, turns = np.linalg.eigh(rows @ rows.T)
     strength, turns = strength[::-1], turns[:, ::-1]
     told = int(np.sum(strength > TOLD**2 * strength[0]))
-    return np.asarray(turns[:, : told if most is None else min(told, most)].T @ rows)
+    return np.asarray(turns[:, :told].T @ rows)

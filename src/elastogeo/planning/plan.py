@@ -11,7 +11,7 @@ from elastogeo.errors import InputError, several
 from elastogeo.identification import reciprocal_sources
 from elastogeo.machine import Machine, Point
 from elastogeo.observe import Askable, Campaign, campaign_of
-from elastogeo.planning.choosing.choice import covariance_of
+from elastogeo.planning.choosing.choice import scores_of
 from elastogeo.planning.choosing.space import row_space
 from elastogeo.planning.expectations import expectations, weak_directions
 from elastogeo.planning.information import unknowns
@@ -20,8 +20,10 @@ from elastogeo.planning.offers.candidate import Candidate
 from elastogeo.planning.offers.candidates import candidates
 from elastogeo.planning.offers.means import Means
 from elastogeo.planning.order import in_order_of_doing
+from elastogeo.planning.proposed import out_of_reach, proposed_for, reasons_for
+from elastogeo.planning.reasons import Reason
 from elastogeo.planning.result import NextBest, Plan, PlannedTest
-from elastogeo.planning.study import Study, chosen_of, goals_of, study_of, support_of
+from elastogeo.planning.study import Study, chosen_of, goals_of, highest_rank, needed_to_support, study_of, support_of
 from elastogeo.planning.verdict import verdict_of
 from elastogeo.sources import select_sources
 
@@ -103,15 +105,30 @@ def plan(
     progress("drawing tests that fit into the travel")
     offered = tuple(chosen_from) or candidates(means, instruments, count, seed)
     progress(f"working out what {len(offered)} tests would tell")
-    study = study_of(means, unknowns(means.machine, reciprocal), offered, campaign, read, seed)
+    asked = unknowns(means.machine, reciprocal)
+    study = study_of(means, asked, offered, campaign, read, seed)
+    reasons: tuple[Reason, ...] = ()
+    missing = out_of_reach(asked, names, study.space.basis)
+    if missing:
+        progress("looking for other instruments")
+        reasons = reasons_for(asked, missing, reciprocal)
+        more = () if chosen_from else proposed_for(means, asked, missing, reasons, reciprocal, seed)
+        study = study_of(means, asked, (*offered, *more), campaign, read, seed) if more else study
     progress(f"choosing for {goal}")
     taken = chosen_of(study, goal, names, tests, minutes, progress)
     progress("working out what the chosen tests will tell")
-    return _answer(study, goal, names, taken, campaign, read)
+    return _answer(study, goal, names, taken, campaign, read, len(offered), reasons)
 
 
 def _answer(
-    study: Study, goal: str, names: Sequence[str], taken: Sequence[int], made: Campaign | None, noise: ReadingNoise
+    study: Study,
+    goal: str,
+    names: Sequence[str],
+    taken: Sequence[int],
+    made: Campaign | None,
+    noise: ReadingNoise,
+    offered: int,
+    reasons: tuple[Reason, ...],
 ) -> Plan:
     number = {id(one): k for k, one in enumerate(study.offered)}
     order = [number[id(one)] for one in in_order_of_doing([study.offered[k] for k in taken])]
@@ -126,11 +143,14 @@ def _answer(
         goal=goal,
         asked=tuple(names),
         candidates=len(study.offered),
+        proposed=tuple(dict.fromkeys(one.test.instrument for one in study.offered[offered:])),
         tests=tuple(_steps(study, order)),
         made=made,
         parameters=parameters,
         rank=rank,
-        highest_rank=row_space(study.told(range(len(study.offered)))).shape[1],
+        highest_rank=highest_rank(study),
+        fewest=needed_to_support(study, [], None),
+        reasons=reasons,
         weak=weak,
         tools=support,
         supported=float(study.supported(order).mean()),
@@ -154,7 +174,7 @@ def _next_best(study: Study, goal: str, names: Sequence[str], order: Sequence[in
     left = [k for k in range(len(study.offered)) if k not in order]
     if not left:
         return None
-    scores = goals_of(study, goal, names)[-1].scores(covariance_of(study.space, order), study.space.rows[left])
+    scores = scores_of(study.space, goals_of(study, goal, names)[-1], order, np.array(left))
     more = [*order, left[int(np.argmax(scores))]]
     return NextBest(
         candidate=study.offered[more[-1]],

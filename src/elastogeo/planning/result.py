@@ -11,6 +11,7 @@ from elastogeo.observe import Campaign
 from elastogeo.planning.noise import ReadingNoise
 from elastogeo.planning.offers.candidate import Candidate
 from elastogeo.planning.offers.means import Means
+from elastogeo.planning.reasons import Reason
 from elastogeo.result import Result
 
 ALONE, IN_A_SUM, UNSEEN = "alone", "sum", "unseen"
@@ -130,19 +131,25 @@ class Plan(Result):
         The parameters that the user named.
     candidates : int
         How many tests were chosen from.
+    proposed : tuple of str
+        Instruments that were not asked for, and whose tests were added: those that were tell too little of what was asked.
     tests : tuple of PlannedTest
         In the order of doing.
     made : Campaign or None
         Tests that were made already, and are kept.
     parameters : tuple of Expectation
     rank, highest_rank : int
-        Directions that the plan determines, and that all candidates together would.
+        Directions that the plan determines, and that any tests of these kinds would, with these tools.
     weak : int
         Of these, how many the readings alone know worse than a parameter's expected size.
     tools : tuple of ToolSupport
         One for each tool.
     supported : float
         Share of the workspace of all tools.
+    fewest : int or None
+        Tests that it takes to support the whole workspace, beside those made already; None if the candidates cannot.
+    reasons : tuple of Reason
+        Why parameters that were asked for are known by no test between tool and workpiece, and what would tell them.
     next_best : NextBest or None
         None if no candidate is left.
     verdict : tuple of Check
@@ -153,6 +160,7 @@ class Plan(Result):
     goal: str
     asked: tuple[str, ...]
     candidates: int
+    proposed: tuple[str, ...]
     tests: tuple[PlannedTest, ...]
     made: Campaign | None
     parameters: tuple[Expectation, ...]
@@ -161,6 +169,8 @@ class Plan(Result):
     weak: int
     tools: tuple[ToolSupport, ...]
     supported: float
+    fewest: int | None
+    reasons: tuple[Reason, ...]
     next_best: NextBest | None
     verdict: tuple[Check, ...] = field(default=())
 

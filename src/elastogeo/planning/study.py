@@ -10,22 +10,27 @@ import numpy as np
 
 from elastogeo.errors import UnsupportedError
 from elastogeo.machine import Array
-from elastogeo.observe import Campaign
-from elastogeo.planning.choosing.choice import Budget, Progress, chosen, covariance_of, extended
+from elastogeo.observe import Campaign, family_of
+from elastogeo.planning.choosing.choice import Budget, Progress, chosen, covariance_of, extended, one_by_one
 from elastogeo.planning.choosing.goals import Goal, Information, MeanVariance, NearlyWorst, Parameters, Worst
 from elastogeo.planning.choosing.space import Space, row_space, space_of
 from elastogeo.planning.expectations import data_uncertainty
-from elastogeo.planning.information import MOST_ROWS, Unknowns, rows_of, whitened
+from elastogeo.planning.families import family_ceiling
+from elastogeo.planning.information import Unknowns, rows_of, unknowns, whitened
 from elastogeo.planning.made import at_planned_poses
 from elastogeo.planning.noise import ReadingNoise
 from elastogeo.planning.offers.candidate import Candidate
 from elastogeo.planning.offers.means import Means
+from elastogeo.planning.proposed import out_of_reach
 from elastogeo.planning.result import ToolSupport
 from elastogeo.planning.workspace import Workspace, workspace
 from elastogeo.prediction import SUPPORTED, unsupported_share
 
-CHOOSING_POSES, JUDGING_POSES = 48, 150
+CHOOSING_POSES, JUDGING_POSES = 64, 150
 """Poses of all tools together while choosing; of each tool, others, to judge what was chosen."""
+
+OF_A_KIND = 12
+"""Tests of one instrument that are looked at to see what it loads and reads."""
 
 MOST_TESTS = 60
 """Tests after which nothing more is added to support the workspace."""
@@ -42,11 +47,11 @@ class Study:
         p parameters.
     offered : tuple of Candidate
     rows : tuple of array, shape (q, p)
-        What each candidate tells, all of it.
+        What each candidate tells.
     made : tuple of array, shape (q, p)
         What the tests that were made already tell.
     space : Space
-        Of the candidates, each with the rows that tell most.
+        Of the candidates.
     choosing, judging : Workspace
         Poses to choose by, and others to judge by.
     """
@@ -95,8 +100,8 @@ def study_of(
         offered=tuple(offered),
         rows=tuple(rows),
         made=tuple(kept),
-        space=space_of([own[:MOST_ROWS] for own in rows], kept),
-        choosing=workspace(means, asked, max(CHOOSING_POSES // len(means.tool_points), 12), seed),
+        space=space_of(rows, kept),
+        choosing=workspace(means, asked, max(CHOOSING_POSES // len(means.tool_points), 16), seed),
         judging=workspace(means, asked, JUDGING_POSES, seed + 1),
     )
 
@@ -122,6 +127,8 @@ def chosen_of(
     UnsupportedError
         If no candidate fits into the minutes, or all together do not support the workspace.
     """
+    if tests is None and minutes is None and names:
+        tests = needed_for(study, names)
     if tests is None and minutes is None:
         tests = needed_to_support(study, [], None)
         if tests is None:
@@ -138,6 +145,17 @@ def chosen_of(
     return taken
 
 
+def needed_for(study: Study, names: Sequence[str]) -> int | None:
+    """How many tests make the named parameters known by themselves; None if the candidates cannot."""
+    if out_of_reach(study.asked, names, row_space(study.told(range(len(study.offered))))):
+        return None
+    (goal,) = goals_of(study, "parameters", names)
+    for so_far in one_by_one(study.space, goal, study.minutes, MOST_TESTS):
+        if not out_of_reach(study.asked, names, row_space(study.told(so_far))):
+            return max(len(so_far), 1)
+    return None
+
+
 def needed_to_support(study: Study, taken: Sequence[int], tool: int | None) -> int | None:
     """How many tests, the taken ones first, support the workspace (of one tool); None if the candidates cannot."""
     here = np.full(len(study.judging.tool), True) if tool is None else study.judging.tool == tool
@@ -148,6 +166,22 @@ def needed_to_support(study: Study, taken: Sequence[int], tool: int | None) -> i
         if count and study.supported(so_far)[here].all():
             return count
     return None
+
+
+def highest_rank(study: Study) -> int:
+    """Directions that any tests of the kinds of these candidates tell, with these tools: at least what all of them do."""
+    machine = study.means.machine
+    found = row_space(study.told(range(len(study.offered)))).shape[1]
+    kinds: dict[str, list[Candidate]] = {}
+    for one in study.offered:
+        kinds.setdefault(one.test.instrument, []).append(one)
+    some = [one.test for own in kinds.values() for one in own[:OF_A_KIND]]
+    family = family_of(machine, [run for test in some for run in test.observations()])
+    if family is None or study.made:
+        return int(found)
+    held = {} if study.means.rotary else dict.fromkeys(study.means.turnable, 0.0)
+    reciprocal = len(study.asked.sources) < len(unknowns(machine).sources)
+    return max(int(found), family_ceiling(machine, family, study.means.tool_points, reciprocal, held).rank)
 
 
 def support_of(study: Study, taken: Sequence[int]) -> tuple[ToolSupport, ...]:

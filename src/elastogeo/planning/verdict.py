@@ -11,32 +11,35 @@ from elastogeo.planning.result import ALONE, Expectation, ToolSupport
 def verdict_of(
     goal: str, asked: Sequence[Expectation], tools: Sequence[ToolSupport], weak: int, rank: int
 ) -> tuple[Check, ...]:
-    """Whether the plan does what it is for."""
-    needed = [tool.tests_needed for tool in tools]
-    share = sum(tool.share for tool in tools) / len(tools)
-    checks = [
-        Check(
-            "workspace supported",
-            all(tool.share == 1.0 for tool in tools),
-            {
-                "share": share,
-                "tools": len(tools),
-                "needed": None if None in needed else max(n for n in needed if n is not None),
-                "worst": max((tool.worst for tool in tools if tool.worst is not None), default=None),
-            },
-            decisive=False,
-        ),
-        Check("no direction weak", weak == 0, {"weak": weak, "rank": rank}),
-    ]
+    """Whether the plan does what it is for: the checks of its goal."""
     if goal == "parameters" and asked:
-        missing = {p.name: dict(p.stands_for) for p in asked if p.known != ALONE}
-        checks.insert(
-            0,
-            Check(
-                "asked parameters known alone",
-                not missing,
-                {"asked": len(asked), "missing": missing},
-                decisive=True,
-            ),
-        )
-    return tuple(checks)
+        return (_known_alone(asked), _surely(asked))
+    weakness = Check("no direction weak", weak == 0, {"weak": weak, "rank": rank})
+    return (_workspace(tools), weakness) if goal == "workspace" else (weakness,)
+
+
+def _workspace(tools: Sequence[ToolSupport]) -> Check:
+    needed = [tool.tests_needed for tool in tools]
+    facts = {
+        "share": sum(tool.share for tool in tools) / len(tools),
+        "tools": len(tools),
+        "needed": None if None in needed else max(n for n in needed if n is not None),
+        "worst": max((tool.worst for tool in tools if tool.worst is not None), default=None),
+    }
+    return Check("workspace supported", all(tool.share == 1.0 for tool in tools), facts)
+
+
+def _known_alone(asked: Sequence[Expectation]) -> Check:
+    missing = {p.name: dict(p.stands_for) for p in asked if p.known != ALONE}
+    return Check("asked parameters known alone", not missing, {"asked": len(asked), "missing": missing}, decisive=True)
+
+
+def _surely(asked: Sequence[Expectation]) -> Check:
+    """Rank is no knowledge: what is known worse than it is expected to be large is as good as not known."""
+    shares = {
+        p.name: p.standard_uncertainty / p.scale for p in asked if p.known == ALONE and p.standard_uncertainty is not None
+    }
+    worst = max(shares, key=lambda name: shares[name], default=None)
+    facts = {"worst": worst, "share": None if worst is None else shares[worst]}
+    passed = None if worst is None else shares[worst] < 1.0
+    return Check("expected uncertainty below the expected size", passed, facts)

@@ -53,7 +53,7 @@ def workspace(means: Means, asked: Unknowns, poses: int, seed: int) -> Workspace
         Rotary axes are held at zero where it says so.
     asked : Unknowns
     poses : int
-        Of each tool. A quarter of them stand in corners of the travel, where the levers are longest.
+        Of each tool. Every other one stands in a corner of the travel, where the levers are longest; all corners in turn.
     seed : int
     """
     random = np.random.default_rng(seed)
@@ -68,8 +68,8 @@ def _of_tool(
     commands = np.zeros((poses, len(means.machine.axes)))
     for k, row in enumerate(commands):
         place = means.somewhere(random)
-        if k % 4 == 0:
-            place = {axis: means.travel(axis)[random.integers(2)] for axis in place}
+        if k % 2:
+            place = {axis: means.travel(axis)[k >> (bit + 1) & 1] for bit, axis in enumerate(place)}
         for axis, value in (place | (means.turned(random) if means.rotary else {})).items():
             row[means.machine.index(axis)] = value
     commands = np.repeat(commands, len(DIRECTIONS), axis=0)

@@ -10,7 +10,7 @@ import numpy as np
 
 from elastogeo.machine import Array
 from elastogeo.planning.choosing.goals import Goal, Information
-from elastogeo.planning.choosing.space import Space
+from elastogeo.planning.choosing.space import Numbers, Space
 
 Progress = Callable[[str], None]
 """Told what is going on."""
@@ -82,6 +82,15 @@ def chosen(
     return _in_order(space, goals[-1], begun[0])
 
 
+def one_by_one(space: Space, goal: Goal, minutes: Array, most: int) -> Iterator[list[int]]:
+    """No candidate, then the best one, then the best beside it, up to `most`."""
+    found: list[int] = []
+    yield []
+    while len(found) < min(most, len(minutes)):
+        found = _greedy(space, goal, minutes, Budget(len(found) + 1), found)
+        yield list(found)
+
+
 def extended(space: Space, taken: Sequence[int], minutes: Array, most: int) -> Iterator[list[int]]:
     """The taken candidates, then one more at a time, each the one that adds most directions, up to `most`.
 
@@ -97,8 +106,20 @@ def extended(space: Space, taken: Sequence[int], minutes: Array, most: int) -> I
 
 def covariance_of(space: Space, taken: Sequence[int]) -> Array:
     """What these candidates leave, with the stated prior, shape (r, r)."""
-    rows = space.rows[list(taken)].reshape(-1, space.rank)
+    rows = np.vstack([np.zeros((1, space.rank)), *(space.rows[k] for k in taken)])
     return _inverse(space.prior + rows.T @ rows)
+
+
+def scores_of(space: Space, goal: Goal, taken: Sequence[int], free: Numbers) -> Array:
+    """The score of each free candidate beside the taken ones, shape (len(free),)."""
+    covariance, scores = covariance_of(space, taken), np.full(len(space.rows), -inf)
+    wanted = np.zeros(len(space.rows), dtype=bool)
+    wanted[free] = True
+    for stack in space.stacks:
+        here = wanted[stack.numbers]
+        if here.any():
+            scores[stack.numbers[here]] = goal.scores(covariance, stack.rows[here])
+    return np.asarray(scores[free])
 
 
 def _inverse(information: Array) -> Array:
@@ -114,8 +135,7 @@ def _greedy(space: Space, goal: Goal, minutes: Array, budget: Budget, taken: Seq
         free = np.setdiff1d(np.flatnonzero(minutes <= left), found)
         if not len(free):
             break
-        covariance = covariance_of(space, found)
-        gains = goal.scores(covariance, space.rows[free]) - goal.score(covariance)
+        gains = scores_of(space, goal, found, free) - goal.score(covariance_of(space, found))
         if np.isfinite(budget.minutes):
             gains = gains / minutes[free]
         found.append(int(free[np.argmax(gains)]))
@@ -145,7 +165,7 @@ def _exchanged(space: Space, goal: Goal, minutes: Array, budget: Budget, taken: 
             others = found[:place] + found[place + 1 :]
             left = budget.minutes - minutes[others].sum()
             free = np.setdiff1d(np.flatnonzero(minutes <= left), others)
-            scores = goal.scores(covariance_of(space, others), space.rows[free])
+            scores = scores_of(space, goal, others, free)
             k = int(np.argmax(scores))
             if scores[k] > best + BETTER * abs(best):
                 found[place], best = int(free[k]), float(scores[k])
@@ -159,6 +179,6 @@ def _in_order(space: Space, goal: Goal, taken: Sequence[int]) -> list[int]:
     left = list(taken)
     found: list[int] = []
     while left:
-        scores = goal.scores(covariance_of(space, found), space.rows[left])
+        scores = scores_of(space, goal, found, np.array(left))
         found.append(left.pop(int(np.argmax(scores))))
     return found

@@ -6,16 +6,38 @@ parameter has a standard deviation of its scale). What no candidate sees keeps i
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from elastogeo.errors import UnsupportedError
 from elastogeo.machine import Array
 
+Numbers = np.ndarray[tuple[int], np.dtype[np.intp]]
+
+LENGTHS = (6, 10, 20, 40)
+"""Numbers of rows at which a stack ends: what is stacked is filled with zeros, which cost as much as rows."""
+
 RANK = 1e-9
 """Singular values smaller than this part of the greatest are rounding error: nothing was found within four orders of it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stack:
+    """Candidates with much the same number of rows.
+
+    Attributes
+    ----------
+    numbers : array, shape (n,) of int
+        Of the candidates.
+    rows : array, shape (n, q, r)
+        Short ones are filled with zeros.
+    """
+
+    numbers: Numbers
+    rows: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -26,8 +48,10 @@ class Space:
     ----------
     basis : array, shape (p, r)
         Orthonormal, in scaled parameters.
-    rows : array, shape (n, q, r)
-        Of each candidate, whitened; short ones are filled with zeros.
+    rows : tuple of array, shape (q, r)
+        Of each candidate, whitened.
+    stacks : tuple of Stack
+        The same, those of much the same length together.
     kept : array, shape (r, r)
         Information of the tests that were made already.
     prior_information : float
@@ -35,7 +59,8 @@ class Space:
     """
 
     basis: Array
-    rows: Array
+    rows: tuple[Array, ...]
+    stacks: tuple[Stack, ...]
     kept: Array
     prior_information: float = 1.0
 
@@ -75,12 +100,21 @@ def space_of(candidates: Sequence[Array], kept: Sequence[Array]) -> Space:
         raise UnsupportedError(
             "none of the candidates tells anything of a compliance: it takes two force levels at the same poses"
         )
-    most = max(map(len, candidates))
-    rows = np.zeros((len(candidates), most, basis.shape[1]))
-    for k, own in enumerate(candidates):
-        rows[k, : len(own)] = own @ basis
     known = np.vstack([*kept, np.zeros((1, len(basis)))]) @ basis
-    return Space(basis, rows, known.T @ known)
+    rows = tuple(own @ basis for own in candidates)
+    return Space(basis, rows, tuple(_stacked(rows)), known.T @ known)
+
+
+def _stacked(rows: Sequence[Array]) -> Iterator[Stack]:
+    lengths = np.array([len(own) for own in rows])
+    longer = [most for most in LENGTHS if most < lengths.max()]
+    for above, most in pairwise([-1, *longer, int(lengths.max())]):
+        numbers = np.flatnonzero((lengths > above) & (lengths <= most))
+        if len(numbers):
+            filled = np.zeros((len(numbers), int(lengths[numbers].max()), rows[0].shape[1]))
+            for k, number in enumerate(numbers):
+                filled[k, : lengths[number]] = rows[int(number)]
+            yield Stack(numbers, filled)
 
 
 def row_space(rows: Array) -> Array:

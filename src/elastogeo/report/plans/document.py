@@ -1,14 +1,18 @@
 """`elastogeo.plan/1`: which tests to run, and what they will tell.
 
 machine : {name, topology}
-goal, asked, candidates, minutes : what the plan is for, the parameters that were named, how many tests it was chosen from
+goal, asked, candidates, proposed, minutes : what the plan is for, the parameters that were named, how many tests it was
+    chosen from, instruments whose tests were added since those offered do not tell what was asked
 forces_N, tools_mm : force levels of every test, tool points
 noise : {reading_mm, angle_rad, set_up_mm, force}: standard deviations that the tests were taken to be read with
 made : names of the tests that were made already
 tests : [{name, instrument, minutes, commands, rank, supported, worst_with_prior}], in the order of doing; `commands` by axis
     [mm, rad], least and greatest; the last three after this test
 parameters : [{name, unit, known, stands_for, standard_uncertainty, scale}]; known is `alone`, `sum` or `unseen`
-rank, highest_rank, weak : directions determined, determined by all candidates together, and known worse than expected
+rank, highest_rank, weak : directions determined, determined by any such tests, and known worse than expected
+fewest : how many tests support the whole workspace, or null
+never_alone : [{name, alike, probes: [{across, sensor, point_mm}]}], of the asked ones those that no test between tool and
+    workpiece tells by itself; `alike` make the same trace, `probes` would tell it
 workspace : [{tool_mm, share, median, worst, worst_with_prior, worst_at, tests_needed}], standard uncertainties in mm/N
 next_best : {name, rank, worst_with_prior, supported} or null
 verdict : as in `envelope`
@@ -34,6 +38,7 @@ def plan_json(plan: Plan) -> dict[str, Any]:
             "goal": plan.goal,
             "asked": plan.asked,
             "candidates": plan.candidates,
+            "proposed": plan.proposed,
             "minutes": plan.minutes,
             "forces_N": plan.means.forces,
             "tools_mm": plan.means.tool_points,
@@ -70,6 +75,17 @@ def plan_json(plan: Plan) -> dict[str, Any]:
             "rank": plan.rank,
             "highest_rank": plan.highest_rank,
             "weak": plan.weak,
+            "fewest": plan.fewest,
+            "never_alone": [
+                {
+                    "name": why.name,
+                    "alike": why.alike,
+                    "probes": []
+                    if why.remedy is None
+                    else [{"across": p.across, "sensor": p.sensor, "point_mm": p.point} for p in why.remedy.probes],
+                }
+                for why in plan.reasons
+            ],
             "workspace": [
                 {
                     "tool_mm": tool.tool,

@@ -7,7 +7,7 @@ from math import degrees
 import numpy as np
 
 from elastogeo.machine import Machine
-from elastogeo.observe import MachineTest
+from elastogeo.observe import JointProbe, MachineTest
 from elastogeo.planning import Candidate, Plan
 from elastogeo.report.numbers import display_unit, pretty, significant
 from elastogeo.report.view import Table
@@ -56,7 +56,13 @@ def what_of(candidate: Candidate) -> str:
         arc = "circle" if turn > full else f"arc of {degrees(float(turn)):.0f}°"
         parts.append(f"{plane if isinstance(plane, str) else 'tilted'} {arc}, R {facts['radius']:g} mm")
     if "across" in facts:
-        parts.append(f"probe across {facts['across']}")
+        parts.append(f"probe across {facts['across']}, {_beside(candidate)}")
+    if "sensors" in facts:
+        parts.append(f"{len(candidate.test.runs)} forces, {facts['sensors']} sensors")
+    if "probes" in facts:
+        parts.append(f"{len(candidate.test.runs)} forces, {len(candidate.setup.quantities) - 1} probes")
+    if "direction of the sensor" in facts and "across" not in facts:
+        parts.append("force and sensor")
     turns = facts.get("rotary turn")
     if isinstance(turns, dict) and turns:
         parts.append(f"{' and '.join(turns)} turning")
@@ -76,11 +82,20 @@ def where_of(candidate: Candidate) -> str:
 def _said(machine: Machine, k: int, value: float, span: float) -> str:
     joint = machine.joints[k]
     if not joint.is_rotary:
-        return f"{joint.name} {value:.0f}"
+        return f"{joint.name} {round(value)}"
     if degrees(span) > _ROUND:
         low, high = degrees(value - span / 2), degrees(value + span / 2)
-        return f"{joint.name} {low:.0f}...{high:.0f}°"
-    return f"{joint.name} {degrees(value):.0f}°" if joint.compliant else ""
+        return f"{joint.name} {round(low)} to {round(high)}°"
+    return f"{joint.name} {round(degrees(value))}°" if joint.compliant else ""
+
+
+def _beside(candidate: Candidate) -> str:
+    """Along what a probe across a joint reads, and where it touches."""
+    setup = candidate.setup
+    assert isinstance(setup, JointProbe)
+    along = "".join(axis for axis, part in zip("xyz", setup.sensor, strict=True) if part)
+    at = "at the origin" if not any(setup.point) else f"at {', '.join(f'{part:.0f}' for part in setup.point)} mm"
+    return f"along {along} {at}"
 
 
 def _tool(test: MachineTest) -> str:

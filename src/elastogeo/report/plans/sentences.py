@@ -42,10 +42,24 @@ def no_direction_weak(facts: Facts, passed: bool | None) -> str:
 def asked_known_alone(facts: Facts, passed: bool | None) -> str:
     """Whether what the user named becomes known by itself."""
     if passed:
-        return f"All {facts['asked']} parameters that were asked for will be known by themselves."
+        return (
+            "What was asked for will be known by itself."
+            if facts["asked"] == 1
+            else f"All {facts['asked']} parameters that were asked for will be known by themselves."
+        )
     parts = [
         f"{name} only within {combination(sum_, _TERMS)}" if sum_ else f"{name} not at all"
         for name, sum_ in facts["missing"].items()
     ]
     more = f" and {len(parts) - _TERMS} more" if len(parts) > _TERMS else ""
     return f"Not known by themselves: {'; '.join(parts[:_TERMS])}{more}."
+
+
+@says("expected uncertainty below the expected size")
+def uncertainty_below_size(facts: Facts, passed: bool | None) -> str:
+    """Whether what becomes known becomes known well."""
+    if passed is None:
+        return "None of the parameters that were asked for becomes known by itself: there is no uncertainty to look at."
+    share = significant(200 * facts["share"])
+    said = f"U of {facts['worst']} will be {share} % of the size that it is expected to have"
+    return f"{said}, the worst of them." if passed else f"{said}: that is as good as not known; plan more tests."

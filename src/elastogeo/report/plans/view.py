@@ -7,11 +7,12 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from elastogeo.planning import ALONE, IN_A_SUM, UNSEEN, Expectation, Plan
+from elastogeo.report.ceilings import reason_words
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.numbers import display_unit, pretty, significant
 from elastogeo.report.plans.document import plan_json
 from elastogeo.report.plans.rows import PER_NEWTON, test_table, what_of, where_of
-from elastogeo.report.text import MOST_TERMS, combination
+from elastogeo.report.text import MOST_TERMS, combination, listed
 from elastogeo.report.view import KeyValue, Picture, Section, Table, View, said, views
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ _GOALS = {
 }
 _WORDS = {ALONE: "known alone", IN_A_SUM: "known in a sum", UNSEEN: "not seen"}
 _HOUR = 60.0
+_MOST_REASONS = 3
 
 
 @views(Plan)
@@ -34,7 +36,7 @@ def plan_view(plan: Plan) -> View:
     return View(
         kind="Plan",
         title=machine.name,
-        subtitle=f"{len(plan.tests)} tests for the {_GOALS[plan.goal]}",
+        subtitle=f"{_tests(plan)} for the {_GOALS[plan.goal]}",
         origin="",
         head=tuple(_head(plan)),
         sentence=_sentence(plan),
@@ -73,11 +75,19 @@ def plan_view(plan: Plan) -> View:
 
 def _sentence(plan: Plan) -> str:
     counts = Counter(p.known for p in plan.parameters)
-    return (
-        f"{len(plan.tests)} tests in {_duration(plan.minutes)} determine {plan.rank} of at most {plan.highest_rank} "
-        f"combinations of {len(plan.parameters)} compliances ({counts[ALONE]} of them alone) and support "
-        f"the compliance at the tool in {100 * plan.supported:.0f} % of the volume."
+    told = (
+        f"{_tests(plan)} in {_duration(plan.minutes)} {'determines' if len(plan.tests) == 1 else 'determine'} {plan.rank} "
+        f"of at most {plan.highest_rank} combinations of {len(plan.parameters)} compliances, {counts[ALONE]} of them alone"
     )
+    if plan.asked:
+        alone = [p.name for p in plan.parameters if p.name in plan.asked and p.known == ALONE]
+        which = (
+            f"all that was asked for ({listed(alone)})"
+            if len(alone) == len(plan.asked)
+            else listed(alone) or "none asked for"
+        )
+        return f"{told}: {which}."
+    return f"{told}, and support the compliance at the tool in {100 * plan.supported:.0f} % of the volume."
 
 
 def _values(plan: Plan) -> Iterator[KeyValue]:
@@ -113,9 +123,17 @@ def _notes(plan: Plan) -> Iterator[str]:
             f"worst u {significant(more.worst * unit.factor)} {unit.name} with the prior, "
             f"{100 * more.supported:.0f} % supported."
         )
+    if plan.fewest is not None and plan.goal == "workspace" and plan.fewest < len(plan.tests):
+        yield f"{plan.fewest} tests could support the whole volume, less surely; the others make it surer."
     for p in plan.parameters:
         if p.name in plan.asked:
             yield _said(p)
+    if plan.proposed:
+        added = ", ".join(one.replace("-", " ") for one in plan.proposed)
+        yield f"Tests of {added} were added: those that were offered do not tell what was asked for by itself."
+    yield from map(reason_words, plan.reasons[:_MOST_REASONS])
+    if len(plan.reasons) > _MOST_REASONS:
+        yield f"{len(plan.reasons) - _MOST_REASONS} more parameters are known by no test between tool and workpiece."
 
 
 def _said(p: Expectation) -> str:
@@ -201,6 +219,10 @@ def _assumptions(plan: Plan) -> Iterator[str]:
         f"every path once without the instrument."
     )
     yield "Other machine faults than compliance are not planned for."
+
+
+def _tests(plan: Plan) -> str:
+    return "1 test" if len(plan.tests) == 1 else f"{len(plan.tests)} tests"
 
 
 def _duration(minutes: float) -> str:
