@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import degrees
+from typing import Any
 
 import numpy as np
 
 from elastogeo.machine import Machine
-from elastogeo.observe import JointProbe, MachineTest
+from elastogeo.observe import MachineTest
 from elastogeo.planning import Candidate, Plan
 from elastogeo.report.numbers import display_unit, pretty, significant
 from elastogeo.report.view import Table
@@ -47,7 +49,7 @@ def test_table(plan: Plan) -> Table:
 
 def what_of(candidate: Candidate) -> str:
     """What a test does: plane, radius and what turns; or directions."""
-    facts = {fact.name: fact.value for fact in candidate.setup.facts()}
+    facts: dict[str, Any] = {fact.name: fact.value for fact in candidate.setup.facts()}
     parts = []
     if "plane" in facts:
         plane = facts["plane"]
@@ -56,7 +58,7 @@ def what_of(candidate: Candidate) -> str:
         arc = "circle" if turn > full else f"arc of {degrees(float(turn)):.0f}°"
         parts.append(f"{plane if isinstance(plane, str) else 'tilted'} {arc}, R {facts['radius']:g} mm")
     if "across" in facts:
-        parts.append(f"probe across {facts['across']}, {_beside(candidate)}")
+        parts.append(f"probe across {facts['across']}, {_beside(facts)}")
     if "sensors" in facts:
         parts.append(f"{len(candidate.test.runs)} forces, {facts['sensors']} sensors")
     if "probes" in facts:
@@ -89,12 +91,11 @@ def _said(machine: Machine, k: int, value: float, span: float) -> str:
     return f"{joint.name} {round(degrees(value))}°" if joint.compliant else ""
 
 
-def _beside(candidate: Candidate) -> str:
-    """Along what a probe across a joint reads, and where it touches."""
-    setup = candidate.setup
-    assert isinstance(setup, JointProbe)
-    along = "".join(axis for axis, part in zip("xyz", setup.sensor, strict=True) if part)
-    at = "at the origin" if not any(setup.point) else f"at {', '.join(f'{part:.0f}' for part in setup.point)} mm"
+def _beside(facts: Mapping[str, Any]) -> str:
+    """Along what a probe across a joint reads, and where it touches, in the frame of the carriage."""
+    (sensor,), (point,) = facts["direction of the sensor"], facts["point of the sensor"]
+    along = "".join(axis for axis, part in zip("xyz", sensor, strict=True) if part)
+    at = "at the origin" if not any(point) else f"at {', '.join(f'{part:.0f}' for part in point)} mm"
     return f"along {along} {at}"
 
 
