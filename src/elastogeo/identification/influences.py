@@ -279,14 +279,16 @@ def setup_deflection(known: KnownInfluence, _: MachineTest, systems: Systems) ->
 
 @effect("thermal-drift", of="test")
 def thermal_drift(known: KnownInfluence, _: MachineTest, systems: Systems) -> Iterator[Effect]:
-    """The readings drift by an amount over the whole test, evenly, in the order of the runs."""
-    total = sum(len(run.rows) for run in systems.runs)
-    before = np.cumsum([0, *(len(run.rows) for run in systems.runs)])
-    starts = {run.name: int(first) for run, first in zip(systems.runs, before, strict=False)}
+    """The readings drift by an amount over the whole test, evenly, in the order of the runs and of time in each.
+
+    Sensors that are read at once drift alike.
+    """
+    lasted = [run.observations.instants.max() + 1 for run in systems.runs]
+    starts = dict(zip((run.name for run in systems.runs), np.cumsum([0, *lasted]), strict=False))
     yield _reading_effect(
         _influence(known, known.length, "length_um"),
         systems,
-        lambda run: (starts[run.name] + np.arange(len(run.rows))) / total - 0.5,
+        lambda run: (starts[run.name] + run.observations.instants) / sum(lasted) - 0.5,
     )
 
 

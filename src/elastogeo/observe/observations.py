@@ -99,6 +99,9 @@ class Observations:
         the velocity says it.
     nominal : array, shape (m,) [mm or rad], or None
         What the instrument measures on a perfect machine, where the reading is the departure from it; None for nothing.
+    instant : array, shape (m,), or None
+        Number of the instant at which each reading was taken, from 0, where several sensors are read at once and the rows
+        stand sensor after sensor; None where they stand in the order of time.
     weight : Workpiece or None
         What lies on the table and loads the joints that carry it.
     span : tuple of str, or None
@@ -125,6 +128,7 @@ class Observations:
     sense: Array | None = None
     nominal: Array | None = None
     span: tuple[str, ...] | None = None
+    instant: Array | None = None
     weight: Workpiece | None = None
 
     def __len__(self) -> int:
@@ -134,6 +138,11 @@ class Observations:
     def sees(self, axis: str) -> bool:
         """Whether a twist at a joint, or at an end of the loop (no axis), moves what the instrument reads."""
         return self.span is None or axis in self.span
+
+    @property
+    def instants(self) -> Array:
+        """Numbers of the instants of the readings, shape (m,), in the order of time."""
+        return np.arange(len(self), dtype=float) if self.instant is None else self.instant
 
     def with_reading(self, reading: Array) -> Observations:
         """The same observations with other readings, shape (m,)."""
@@ -159,6 +168,7 @@ class Observations:
             influences=tuple(influence.rows(part) for influence in self.influences),
             sense=None if self.sense is None else self.sense[part],
             nominal=None if self.nominal is None else self.nominal[part],
+            instant=None if self.instant is None else self.instant[part],
         )
 
 

@@ -172,6 +172,7 @@ class SphereNest(Setup):
             tool=tool,
             workpiece=planned.ball,
             sense=np.asfortranarray(np.tile(_senses(commands), (sensors, 1))),
+            instant=np.tile(np.arange(float(count)), sensors),
         )
         check_observations(observations)
         check_displacements(run, self.readings)

@@ -187,6 +187,7 @@ class DisplacementProbes(Setup):
             tool=tool,
             workpiece=commands.ball,
             influences=force_influences(self.calibration, run.force, run.pressure, sensors * len(angle)),
+            instant=np.tile(np.arange(float(len(angle))), sensors),
         )
         check_observations(observations)
         check_displacements(run, self.readings)

@@ -223,6 +223,7 @@ class SensorFrame(Setup):
             correction=np.zeros(count * sensors),
             tool=tool,
             workpiece=workpiece_ball(machine, place, tool),
+            instant=np.tile(np.arange(float(count)), sensors),
         )
         check_observations(observations)
         check_displacements(run, self.readings)
