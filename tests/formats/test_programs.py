@@ -29,7 +29,7 @@ def _registered_toy() -> None:
 
 
 MACHINE = build_machine("wCAFYXZSt")
-FLAVOURS = sorted(flavours())
+FLAVOURS = sorted({*flavours()} - {"steps"})
 _registered_toy()
 WORDS = [name for name in FLAVOURS if name != "heidenhain"]
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import pi
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Angle, Feed, Length, Time
+from elastogeo.machine import Angle, Feed, Length, Rate, Time
 from elastogeo.observe.run import Run
 
 ORDERS = ("listed", "counter-clockwise first", "by level")
@@ -31,12 +31,17 @@ class Procedure:
         Feed of radial and vertical moves near the set-up.
     feed : float [mm/s]
         Of moves between readings, for instruments whose set-up names none.
+    rotary_feed : float [rad/s]
+        The same of rotary axes.
     clearance : float [mm]
         Along Z, away from the workpiece, at which the machine comes to the set-up; less where its travel ends.
     change : float or None [s]
         To wait while the level of the load changes; None stops the program until the operator goes on.
     dwell : float [s]
         At every pose that is read at standstill.
+    poses : int
+        Poses of each motion of rotary axes (of a full turn) that are read at standstill, where the run does not list its
+        own; 0 goes on without a halt.
     overrun : float [mm]
         That a linear axis passes the last target, to come back to it from the other side.
     overrun_angle : float [rad]
@@ -54,9 +59,11 @@ class Procedure:
     feed_in: Length = 1.5
     approach: Feed = 5.0
     feed: Feed = 1000.0 / 60
+    rotary_feed: Rate = pi / 18
     clearance: Length = 50.0
     change: Time | None = None
     dwell: Time = 3.0
+    poses: int = 36
     overrun: Length = 5.0
     overrun_angle: Angle = pi / 60
     order: str = "listed"
@@ -75,8 +82,8 @@ class Procedure:
             raise InputError(
                 f"the start angle is {self.start:.4g} rad; it must be within a full turn: is it degrees given as radians?"
             )
-        positive = ("approach", "feed", "chord", "between")
-        for name in (*positive, "feed_in", "clearance", "dwell", "overrun", "overrun_angle"):
+        positive = ("approach", "feed", "rotary_feed", "chord", "between")
+        for name in (*positive, "feed_in", "clearance", "dwell", "poses", "overrun", "overrun_angle"):
             value = getattr(self, name)
             if not 0 <= value < float("inf") or (name in positive and not value):
                 least = "above" if name in positive else "at least"

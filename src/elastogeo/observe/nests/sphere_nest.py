@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, LoopFrames, Machine, Motion, Point, follow, loop_frames
+from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Block, LoopFrames, Machine, Motion, Point, follow, loop_frames
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector, unit_vectors
 from elastogeo.observe.displacements import MOST_DISPLACEMENT, check_displacements, read_by, recorded
@@ -23,6 +23,8 @@ from elastogeo.observe.instruments import instrument
 from elastogeo.observe.nests.beginning import TEMPLATE, template_for
 from elastogeo.observe.nests.motion import BallMotion, planned_commands
 from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.procedure import Procedure, change_of_level, ordered
+from elastogeo.observe.programs import Followed, FollowedRun, following_blocks
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
 from elastogeo.observe.template import Template
@@ -192,6 +194,23 @@ class SphereNest(Setup):
         true = respond(replace(blank, wrench=blank.wrench * imperfection.force_factor(random)))
         read = read_by(imperfection, true - blank.reading, len(self.sensors), random)
         return replace(run, columns={**columns, **dict(zip(self.readings, read, strict=True))})
+
+    def program(self, machine: Machine, runs: Sequence[Run], procedure: Procedure) -> Sequence[Block]:
+        """Rotary axes from pose to pose, the linear axes follow the ball; a run with times goes on without a halt."""
+        tool = None if self.tool is None else np.array(self.tool)
+        test = Followed(machine, self.centre, tool, "Sphere nest", "bring the ball into the nest")
+        made: list[FollowedRun] = []
+        last: Run | None = None
+        for run in ordered(runs, procedure.order):
+            recorded_axes = any(axis.lower() in run.columns for axis in machine.axes)
+            turn = np.arange(n := max(procedure.poses or 1, 1) * max(len(self.motions), 1)) * 2 * np.pi / n
+            planned = run if recorded_axes else replace(run, columns={"angle": turn})
+            count = max(map(len, planned.columns.values()), default=0)
+            halts = "time" not in run.columns and (recorded_axes or procedure.poses > 0)
+            rotary = self._rotary(machine, planned, count)
+            made.append(FollowedRun(run.name, rotary, change_of_level(run, last), halts))
+            last = run
+        return following_blocks(test, made, procedure)
 
     def _rotary(self, machine: Machine, run: Run, count: int) -> dict[str, Array]:
         """Commands of the rotary axes, shape (m,) [rad]: those that the run records; if none, those of the motions."""

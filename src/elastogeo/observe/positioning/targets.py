@@ -20,6 +20,7 @@ from elastogeo.machine import (
     ROTARY,
     Array,
     AxisCommands,
+    Block,
     LoopFrames,
     Machine,
     Point,
@@ -33,7 +34,9 @@ from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, ObservedInfluence, check_observations
 from elastogeo.observe.positioning.approaches import approaches, distinct
+from elastogeo.observe.positioning.program import target_blocks
 from elastogeo.observe.positioning.readings import check_readings, deviations
+from elastogeo.observe.procedure import Procedure, ordered
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
 from elastogeo.observe.template import Template
@@ -308,6 +311,12 @@ class Positioning(Setup):
         if blank.nominal is None:
             return replace(run, columns={**columns, "deviation": read})
         return replace(run, columns={**columns, "position": self._cosine_of(machine, blank) * target + read})
+
+    def program(self, machine: Machine, runs: Sequence[Run], procedure: Procedure) -> Sequence[Block]:
+        """The axis to every target from the side of its reading, with a dwell there."""
+        machine.index(self.axis)
+        cycles = [(run, self._columns(run)["target"], self._senses(run)) for run in ordered(runs, procedure.order)]
+        return target_blocks(machine, self.axis, self.pose, cycles, procedure)
 
     def _columns(self, run: Run) -> dict[str, Array]:
         """The columns of a run; those of the plan, where it has only places to be simulated at."""

@@ -116,7 +116,7 @@ class _Way:
         self.test, self.run, self.procedure = test, run, procedure
         self.path = replace(test.circle, radius=test.circle.radius - (run.engagement or 0.0))
         self.rate = (run.feed or test.feed) / self.path.radius
-        low, high, full = _read(run, start_angle(test.circle, procedure))
+        low, high, full = _read(run, test.circle, procedure)
         whole = pi if full and not test.circle.rotary_turn else PART_OVERSHOOT
         over = whole if procedure.overshoot is None else procedure.overshoot
         reads = (low, high)[:: run.sense]
@@ -200,15 +200,21 @@ def start_angle(circle: Circle, procedure: Procedure) -> float:
     return 1.5 * pi if circle.plane == "ZX" else pi
 
 
-def _read(run: Run, start: float) -> tuple[float, float, bool]:
-    """Least and greatest angle of the readings of a run, and whether they go all around."""
+def _read(run: Run, circle: Circle, procedure: Procedure) -> tuple[float, float, bool]:
+    """Least and greatest angle of the readings of a run, and whether they go all around.
+
+    Where rotary axes turn along, an angle and the same a turn later are two poses: they begin where the run says.
+    """
+    start = start_angle(circle, procedure)
     angle = run.columns.get("angle")
     if angle is None or not len(angle):
         return start, start + 2 * pi, True
-    span = float(np.ptp(angle))
-    if span * (1 + 1 / max(len(angle) - 1, 1)) >= FULL * 2 * pi:
-        return start, start + 2 * pi, True
-    return float(angle.min()), float(angle.max()), False
+    low, span = float(angle.min()), float(np.ptp(angle))
+    if span * (1 + 1 / max(len(angle) - 1, 1)) < FULL * 2 * pi:
+        return low, low + span, False
+    if circle.rotary_turn and procedure.start is None:
+        start = low
+    return start, start + 2 * pi, True
 
 
 def _arc_of(machine: Machine, circle: Circle, tool: Array | None) -> tuple[str, tuple[float, float], int] | None:

@@ -14,22 +14,14 @@ from typing import Annotated, ClassVar
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import (
-    COMPONENTS,
-    MM_OR_RAD,
-    Array,
-    AxisCommands,
-    LoopFrames,
-    Machine,
-    Point,
-    loop_frames,
-)
+from elastogeo.machine import COMPONENTS, MM_OR_RAD, Array, AxisCommands, Block, LoopFrames, Machine, Point, loop_frames
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector
 from elastogeo.observe.displacements import check_displacements, recorded
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.procedure import Procedure
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
 from elastogeo.observe.static_loads.load import (
@@ -39,6 +31,7 @@ from elastogeo.observe.static_loads.load import (
     force_sizes,
     force_vectors,
     planned,
+    static_program,
     with_lever,
 )
 from elastogeo.observe.template import FORCE, Template
@@ -208,6 +201,10 @@ class JointProbe(Setup):
         check_observations(observations)
         check_displacements(run, ["displacement"])
         return observations
+
+    def program(self, machine: Machine, runs: Sequence[Run], procedure: Procedure) -> Sequence[Block]:
+        """To the pose of each run, and a stop there."""
+        return static_program(machine, runs, self.pose, self.template.title, procedure)
 
     def simulated(
         self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator

@@ -7,15 +7,17 @@ known direction (column `force`, or one force for the whole run), or by componen
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, Machine
+from elastogeo.machine import Array, Block, Comment, Machine, Stop
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector
 from elastogeo.observe.displacements import recorded
+from elastogeo.observe.procedure import Procedure, change_of_level, ordered
+from elastogeo.observe.programs import Pose, movable, pose_blocks
 from elastogeo.observe.run import Run
 
 COMPONENTS = ("force_x", "force_y", "force_z")
@@ -136,3 +138,34 @@ def planned(machine: Machine, run: Run, direction: Direction | None, *, ramp: bo
         angle = np.asarray(run.columns["angle"])
         columns["force"] = run.force * ((1 - np.cos(angle)) / 2 if ramp else np.ones_like(angle))
     return columns
+
+
+def static_program(
+    machine: Machine, runs: Sequence[Run], pose: Mapping[str, float], title: str, procedure: Procedure
+) -> list[Block]:
+    """The blocks that take the machine to the poses of a static test, and stop there for every run."""
+    blocks: list[Block] = [
+        Comment(title),
+        Comment("work offset: every axis zero where the machine file counts from"),
+        Stop("spindle locked, way free"),
+    ]
+    poses: list[Pose] = []
+    last: Run | None = None
+    for run in ordered(runs, procedure.order):
+        change = change_of_level(run, last)
+        for place in places_of(machine, run, pose):
+            moved = bool(poses) and dict(poses[-1].to) != place
+            there = f"{change}; read run {run.name}" if change else f"read run {run.name}"
+            poses.append(Pose(place, "take load and sensors off" if moved else "", there, f"run {run.name}"))
+        last = run
+    return [*blocks, *pose_blocks(machine, poses, procedure)]
+
+
+def places_of(machine: Machine, run: Run, pose: Mapping[str, float]) -> list[dict[str, float]]:
+    """Commands of every axis at each place at which a run is read, in order."""
+    named = movable(machine)
+    columns = {axis: np.asarray(run.columns[axis.lower()]) for axis in named if axis.lower() in run.columns}
+    count = max((len(values) for values in columns.values()), default=1)
+    table = np.column_stack([columns.get(axis, np.full(count, pose.get(axis, 0.0))) for axis in named])
+    apart = np.flatnonzero((np.abs(np.diff(table, axis=0)) > _STANDING).any(axis=1)) + 1
+    return [dict(zip(named, map(float, table[k]), strict=True)) for k in (0, *apart)]

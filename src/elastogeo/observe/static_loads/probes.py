@@ -13,7 +13,7 @@ from typing import ClassVar
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Motion, Point, follow, loop_frames
+from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Block, Machine, Motion, Point, follow, loop_frames
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector, unit_vectors
 from elastogeo.observe.displacements import check_displacements, read_by, recorded
@@ -21,6 +21,8 @@ from elastogeo.observe.force import Calibration, force_influences, force_of_run
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.procedure import Procedure, change_of_level, ordered
+from elastogeo.observe.programs import Followed, FollowedRun, following_blocks
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
 from elastogeo.observe.static_loads.load import (
@@ -204,6 +206,22 @@ class DisplacementProbes(Setup):
         true = respond(replace(blank, wrench=blank.wrench * imperfection.force_factor(random)))
         read = read_by(imperfection, true - blank.reading, len(self.probes), random)
         return replace(run, columns={**columns, **dict(zip(self.readings, read, strict=True))})
+
+    def program(self, machine: Machine, runs: Sequence[Run], procedure: Procedure) -> Sequence[Block]:
+        """The rotary axes turn from pose to pose under load, the linear axes follow the ball on the table."""
+        tool = None if self.tool is None else np.array(self.tool)
+        test = Followed(machine, self.centre, tool, "Loaded bar and displacement probes", "put bar and probes in")
+        made: list[FollowedRun] = []
+        last: Run | None = None
+        for run in ordered(runs, procedure.order):
+            given = run.columns.get("angle", np.array([0.0, 2 * np.pi]))
+            low, high = float(np.min(given)), float(np.max(given))
+            count = max(round(procedure.poses * (high - low) / (2 * np.pi)), 1) + 1
+            angle = np.linspace(low, high, count)[:: run.sense] if self.rotary_turn else np.zeros(1)
+            rotary = {axis: np.asarray(values) for axis, values in self._motion(angle).rotary.items()}
+            made.append(FollowedRun(run.name, rotary, change_of_level(run, last), procedure.poses > 0))
+            last = run
+        return following_blocks(test, made, procedure)
 
     def _motion(self, angle: Array) -> Motion:
         """The tool ball stays where it is on the table, whatever turns."""

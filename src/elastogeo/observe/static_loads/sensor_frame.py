@@ -15,13 +15,14 @@ from typing import ClassVar
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
+from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Block, Machine, Point, loop_frames, workpiece_ball
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector
 from elastogeo.observe.displacements import check_displacements, read_by, recorded
 from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
 from elastogeo.observe.observations import Observations, check_observations
+from elastogeo.observe.procedure import Procedure
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
 from elastogeo.observe.static_loads.load import (
@@ -32,6 +33,7 @@ from elastogeo.observe.static_loads.load import (
     force_vectors,
     planned,
     static_commands,
+    static_program,
     with_lever,
 )
 from elastogeo.observe.template import FORCE, Template
@@ -228,6 +230,10 @@ class SensorFrame(Setup):
         check_observations(observations)
         check_displacements(run, self.readings)
         return observations
+
+    def program(self, machine: Machine, runs: Sequence[Run], procedure: Procedure) -> Sequence[Block]:
+        """To the pose of each run, and a stop there."""
+        return static_program(machine, runs, self.pose, self.template.title, procedure)
 
     def simulated(
         self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
