@@ -25,7 +25,7 @@ from elastogeo.machine import (
     path_of_commands,
 )
 from elastogeo.observe import Imperfection
-from elastogeo.prediction import DEVIATION_COMPONENTS, path_deviation, simulated_points
+from elastogeo.prediction import DEVIATION_COMPONENTS, Piece, knowledge_of, path_deviation, simulated_points
 from elastogeo.sources import simulate
 
 TRUTH = {
@@ -162,3 +162,25 @@ def test_what_is_shown_is_the_result(result: Identification) -> None:
     assert first["interval95_um"][2] is None
     assert len(first["deviation_um"]) == len(DEVIATION_COMPONENTS)
     assert all(check["sentence"] for check in document["verdict"])
+
+
+def test_a_dense_path_is_predicted_as_each_of_its_points(result: Identification) -> None:
+    """Where many points are found of a few, and degrees of freedom between knots, they are those of each point by itself."""
+    machine = result.campaign.machine
+    turn = np.linspace(0, 3.0, 4001)
+    commands = np.zeros((len(turn), len(machine.axes)))
+    commands[:, machine.index("X")] = 80 * np.cos(turn) + 20 * np.sign(np.sin(9 * turn))
+    commands[:, machine.index("Y")] = 90 * np.sin(turn)
+    path = path_of_commands(machine, commands, feed=10.0)
+    found = path_deviation(result, path, CUT, split=False)
+    some = np.arange(1, 4000, 37)
+    knowledge = knowledge_of(result)
+    asked = Piece(path, CUT, some).functionals(knowledge)
+    alone = knowledge.predict(asked.reshape(-1, asked.shape[2]))
+    tool = Piece(path, CUT, some).tool_deflection()
+    each = {name: getattr(alone, name).reshape(4, -1).T[:, :2] for name in ("value", "supported", "standard_uncertainty")}
+    assert found.supported[some, :2].tolist() == each["supported"].tolist()
+    assert found.value[some, :2] == pytest.approx(each["value"] + tool[:, :2], rel=1e-9)
+    bare = path_deviation(result, path, Cut(CUT.force and replace(CUT.force, relative_uncertainty=0.0)), split=False)
+    assert bare.standard_uncertainty[some, :2] == pytest.approx(each["standard_uncertainty"], rel=1e-7)
+    assert bare.degrees_of_freedom[some, :2] == pytest.approx(alone.degrees_of_freedom.reshape(4, -1).T[:, :2], rel=5e-3)

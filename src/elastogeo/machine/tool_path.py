@@ -31,7 +31,7 @@ _NEAR = 1e-3
 UP = (0.0, 0.0, 1.0)
 """Direction of a tool from its tip to its holder, in the frame of the last carriage of the tool branch."""
 
-Whole = np.ndarray[tuple[int], np.dtype[np.intp]]
+Rows = np.ndarray[tuple[int], np.dtype[np.intp]]
 Flags = np.ndarray[tuple[int], np.dtype[np.bool_]]
 
 
@@ -66,7 +66,7 @@ class ToolPath(ByValue):
     commands: Array
     velocity: Array
     steps: Array
-    block: Whole
+    block: Rows
     cutting: Flags
     timed: bool
     tool: Array
@@ -252,7 +252,7 @@ def path_of_points(
     return path_of_commands(machine, made.position, feed, block, cutting, tool, name)
 
 
-def _rates(change: Array, chords: Array, steps: Array, block: Whole) -> Array:
+def _rates(change: Array, chords: Array, steps: Array, block: Rows) -> Array:
     """Change of every command per way of the tool, shape (m, n).
 
     That of the chord to a point; halfway to that of the next chord, where it is of the same block and makes no corner.

@@ -81,6 +81,12 @@ class Predicted(ByValue):
         """95 % coverage interval, shape (m, 2)."""
         return np.column_stack([self.value - self.expanded, self.value + self.expanded])
 
+    @staticmethod
+    def joined(parts: Sequence[Predicted]) -> Predicted:
+        """The functionals of all parts, one after the other."""
+        every = {field.name: np.concatenate([getattr(one, field.name) for one in parts]) for field in fields(Predicted)}
+        return Predicted(**every)
+
     def __len__(self) -> int:
         return len(self.value)
 

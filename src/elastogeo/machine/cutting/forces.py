@@ -18,7 +18,7 @@ from elastogeo.estimate import Array
 from elastogeo.machine.cutting.coefficients import CuttingCoefficients
 from elastogeo.machine.cutting.milling import Engagement, Mill, forces_over_a_turn, mean_force
 from elastogeo.machine.frames import Frame
-from elastogeo.machine.tool_path import ToolPath
+from elastogeo.machine.tool_path import Rows, ToolPath
 
 Directions = Literal["workpiece", "machine", "path"]
 DIRECTIONS = ("workpiece", "machine", "path")
@@ -42,13 +42,13 @@ class PathForce(Protocol):
     def said(self) -> str:
         """What it is, in words."""
 
-    def on_tool(self, path: ToolPath, part: slice, workpiece: Frame) -> Array:
+    def on_tool(self, path: ToolPath, part: slice | Rows, workpiece: Frame) -> Array:
         """Wrench on the tool at its tip, shape (k, 6) [N, N mm], along the axes of the workpiece.
 
         Parameters
         ----------
         path : ToolPath
-        part : slice
+        part : slice, or array of int
             The k points that are wanted.
         workpiece : Frame
             Of the table at these points.
@@ -90,9 +90,9 @@ class ConstantForce:
         own = f", {len(self.blocks)} blocks with forces of their own" if self.blocks else ""
         return f"constant, ({components}) N along the {self.along}{own}"
 
-    def on_tool(self, path: ToolPath, part: slice, workpiece: Frame) -> Array:
+    def on_tool(self, path: ToolPath, part: slice | Rows, workpiece: Frame) -> Array:
         """As `PathForce`: none where the tool does not cut."""
-        found = np.tile(np.asarray(self.force, dtype=float), (part.stop - part.start, 1))
+        found = np.tile(np.asarray(self.force, dtype=float), (len(path.block[part]), 1))
         for block, force in self.blocks.items():
             found[path.block[part] == block] = force
         found *= path.cutting[part, np.newaxis]
@@ -145,7 +145,7 @@ class MeasuredForce:
         """What it is, in words."""
         return f"measured ({self.source}), {len(self.at)} readings by {self.counts}"
 
-    def on_tool(self, path: ToolPath, part: slice, workpiece: Frame) -> Array:
+    def on_tool(self, path: ToolPath, part: slice | Rows, workpiece: Frame) -> Array:
         """As `PathForce`: between two readings in proportion.
 
         Raises
@@ -210,7 +210,7 @@ class MillingForce:
             f"{self.speed * 30 / pi:g} 1/min, {self.moment} force; coefficients: {self.edge.source or 'own'}"
         )
 
-    def on_tool(self, path: ToolPath, part: slice, workpiece: Frame) -> Array:
+    def on_tool(self, path: ToolPath, part: slice | Rows, workpiece: Frame) -> Array:
         """As `PathForce`: none where the tool does not cut, or stands, or plunges.
 
         Raises
@@ -220,7 +220,7 @@ class MillingForce:
         """
         if not path.timed and self.feed is None:
             raise InputError(f"{path.name}: the milling model needs the feed; write it in the path, or give it with the cut")
-        count = part.stop - part.start
+        count = len(path.block[part])
         feed = path.speed[part] if path.timed else np.full(count, self.feed)
         per_tooth = np.round(feed * 2 * pi / (self.speed * self.mill.teeth), _FEED_DIGITS)
         found = np.zeros((count, 3))
@@ -247,7 +247,7 @@ class MillingForce:
         return np.asarray(forces_over_a_turn(self.edge, self.mill, self.engagement, per_tooth, tips).mean(axis=0))
 
 
-def turned(force: Array, along: Directions, path: ToolPath, part: slice, workpiece: Frame) -> Array:
+def turned(force: Array, along: Directions, path: ToolPath, part: slice | Rows, workpiece: Frame) -> Array:
     """Forces [N], shape (k, 3), as wrenches along the axes of the workpiece, shape (k, 6)."""
     found = np.zeros((len(force), 6))
     match along:

@@ -4,7 +4,7 @@ Stands on the files of `prediction` and the rooms below it.
 """
 
 from elastogeo.prediction.paths.ask import predict
-from elastogeo.prediction.paths.deviation import DEVIATION_COMPONENTS, PARTS, PieceDeviation, deviations
+from elastogeo.prediction.paths.deviation import DEVIATION_COMPONENTS, PARTS, Piece, PieceDeviation, deviations
 from elastogeo.prediction.paths.predict import TOOL, path_deviation
 from elastogeo.prediction.paths.result import PartOfDeviation, PathPrediction
 from elastogeo.prediction.paths.simulation import simulated_points
@@ -15,6 +15,7 @@ __all__ = [
     "TOOL",
     "PartOfDeviation",
     "PathPrediction",
+    "Piece",
     "PieceDeviation",
     "deviations",
     "path_deviation",

@@ -7,7 +7,7 @@ The memory does not grow with the path: a piece of it is worked on at a time.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -16,6 +16,7 @@ import numpy as np
 from elastogeo.machine import Array, Cut, Frame, LoopFrames, ToolPath, loop_frames
 from elastogeo.observe import Observations
 from elastogeo.prediction.knowledge import Flags, Knowledge, Predicted
+from elastogeo.prediction.paths.along import Rows, predicted_along
 from elastogeo.prediction.virtual import virtual_observations
 
 PIECE = 4096
@@ -37,13 +38,13 @@ class Piece:
     ----------
     path : ToolPath
     cut : Cut
-    part : slice
+    part : slice, or array of int
         Which points, k of them.
     """
 
     path: ToolPath
     cut: Cut
-    part: slice
+    part: slice | Rows
     frames: LoopFrames = field(init=False)
 
     def __post_init__(self) -> None:
@@ -52,7 +53,7 @@ class Piece:
         object.__setattr__(self, "frames", frames)
 
     def __len__(self) -> int:
-        return int(self.part.stop - self.part.start)
+        return len(self.path.block[self.part])
 
     @cached_property
     def rotation(self) -> Array:
@@ -102,10 +103,10 @@ class Piece:
         return replace(asked, velocity=velocity, acceleration=None, sense=sense, weight=self.cut.workpiece)
 
     def functionals(self, knowledge: Knowledge) -> Array:
-        """What the four components of every point ask of the parameters, shape (k, 4, p)."""
+        """What each of the four components asks of the parameters at every point, shape (4, k, p)."""
         rows = knowledge.rows(self.observations()).reshape(3, len(self), -1)
         normal = np.einsum("ki,ikp->kp", np.nan_to_num(self.normal), rows)
-        return np.concatenate([rows, normal[np.newaxis]]).transpose(1, 0, 2)
+        return np.concatenate([rows, normal[np.newaxis]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,11 +120,9 @@ class PieceDeviation:
     wrench : array, shape (k, 6) [N, N mm]
         On the tool, along the axes of the workpiece.
     machine : Predicted
-        Of the machine alone: 4 k values [mm], the four components of the first point first.
-    asked : array of bool, shape (4 k,)
+        Of the machine alone: 4 k values [mm], all of the first component first.
+    asked : array of bool, shape (4, k)
         Whether any parameter that was asked for moves this component at all.
-    parts : mapping of str to Predicted
-        The same of each of `PARTS`.
     tool : array, shape (k, 4) [mm]
         What tool and holder add.
     """
@@ -132,12 +131,11 @@ class PieceDeviation:
     wrench: Array
     machine: Predicted
     asked: Flags
-    parts: Mapping[str, Predicted]
     tool: Array
 
 
 def deviations(
-    knowledge: Knowledge, path: ToolPath, cut: Cut, split: bool = True, prior: bool = False, points: int = PIECE
+    knowledge: Knowledge, path: ToolPath, cut: Cut, prior: bool = False, points: int = PIECE
 ) -> Iterator[PieceDeviation]:
     """The deviation along a path, piece by piece.
 
@@ -147,26 +145,22 @@ def deviations(
         Of the machine, from its tests.
     path : ToolPath
     cut : Cut
-    split : bool
-        Whether the parts are wanted, too: they take most of the time.
     prior : bool
         Whether what the tests do not support is given by the stated prior.
     points : int
         In a piece.
     """
-    members = part_members(knowledge)
     for part in path.slices(points):
         piece = Piece(path, cut, part)
         asked = piece.functionals(knowledge)
-        flat = asked.reshape(-1, asked.shape[2])
-        yield PieceDeviation(
-            part=part,
-            wrench=piece.wrench,
-            machine=knowledge.predict(flat, prior),
-            asked=np.asarray(flat.any(axis=1)),
-            parts={name: knowledge.predict(flat * of, prior) for name, of in members.items()} if split else {},
-            tool=piece.tool_deflection(),
-        )
+        found = predicted_along(knowledge, asked, prior)
+        yield PieceDeviation(part, piece.wrench, found, np.asarray(asked.any(axis=2)), piece.tool_deflection())
+
+
+def parts_of(knowledge: Knowledge, path: ToolPath, cut: Cut, points: Rows, prior: bool = False) -> dict[str, Predicted]:
+    """Each of `PARTS` at some points of a path, k of them, of one piece: 4 k values, as in `PieceDeviation`."""
+    asked = Piece(path, cut, points).functionals(knowledge)
+    return {name: predicted_along(knowledge, asked * members, prior) for name, members in part_members(knowledge).items()}
 
 
 def part_members(knowledge: Knowledge) -> dict[str, Array]:

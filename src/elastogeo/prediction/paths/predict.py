@@ -11,21 +11,25 @@ from elastogeo.errors import InputError
 from elastogeo.estimate import effective_degrees_of_freedom
 from elastogeo.identification import Identification
 from elastogeo.machine import Array, Cut, ToolPath
-from elastogeo.prediction.knowledge import Flags, Knowledge, knowledge_of
+from elastogeo.prediction.knowledge import Knowledge, knowledge_of
+from elastogeo.prediction.paths.along import Rows, predicted_along
 from elastogeo.prediction.paths.deviation import (
     COMPLIANCE,
     DEVIATION_COMPONENTS,
-    PARTS,
     Piece,
     PieceDeviation,
     deviations,
     part_members,
+    parts_of,
 )
 from elastogeo.prediction.paths.result import PartOfDeviation, PathPrediction, expanded
 from elastogeo.prediction.paths.verdict import tested_of, verdict_of
 
 TOOL = "tool"
 """The part that tool and holder give."""
+
+SPLIT_POINTS = 2000
+"""Points of a long path at which it is split into its parts, besides those where it is off most."""
 
 
 def path_deviation(
@@ -57,13 +61,15 @@ def path_deviation(
             f"the path is of machine {path.machine.name!r}, the tests are of {knowledge.machine.name!r}; make the path with "
             f"the machine of the tests"
         )
-    found = _gathered(knowledge, path, cut, split, prior)
+    found = _gathered(knowledge, path, cut, prior)
+    if split:
+        found = _split(found, knowledge, cut, prior)
     named = replace(found, name=result.campaign.name, simulated=knowledge.simulated)
     return replace(named, verdict=verdict_of(named, knowledge, cut, tested_of(result)))
 
 
-def _gathered(knowledge: Knowledge, path: ToolPath, cut: Cut, split: bool, prior: bool) -> PathPrediction:
-    """The pieces of a path as one result, without its verdict."""
+def _gathered(knowledge: Knowledge, path: ToolPath, cut: Cut, prior: bool) -> PathPrediction:
+    """The pieces of a path as one result, without its parts and its verdict."""
     m, width = len(path), len(DEVIATION_COMPONENTS)
     numbers: dict[str, Any] = {
         name: np.full((m, width), np.nan)
@@ -71,12 +77,9 @@ def _gathered(knowledge: Knowledge, path: ToolPath, cut: Cut, split: bool, prior
     }
     supported: Any = np.zeros((m, width), dtype=bool)
     wrench = np.empty((m, 6))
-    names = [*(PARTS if split else ()), *([TOOL] if cut.tool is not None else [])]
-    parts = {name: PartOfDeviation(np.full((m, width), np.nan), np.full((m, width), np.nan)) for name in names}
     needs_load = cut.force is not None and cut.force.relative_uncertainty > 0
-    for piece in deviations(knowledge, path, cut, split, prior):
+    for piece in deviations(knowledge, path, cut, prior):
         at = piece.part
-        no_normal: Flags = np.asarray(np.isnan(path.left[at]).any(axis=1))
         loaded = _by_load(knowledge, path, cut, piece) if needs_load else None
         u, degrees = _combined(piece, cut, loaded)
         wrench[at], supported[at] = piece.wrench, _shaped(piece.machine.supported)
@@ -84,13 +87,11 @@ def _gathered(knowledge: Knowledge, path: ToolPath, cut: Cut, split: bool, prior
         numbers["standard_uncertainty"][at], numbers["degrees_of_freedom"][at] = u, degrees
         numbers["unsupported"][at] = _shaped(piece.machine.unsupported)
         numbers["prior_share"][at] = _shaped(piece.machine.prior_share)
-        for name, part in piece.parts.items():
-            parts[name].value[at], parts[name].expanded[at] = _shaped(part.value), _shaped(part.expanded)
-        if cut.tool is not None:
-            share = cut.tool.relative_uncertainty
-            parts[TOOL].value[at] = piece.tool
-            parts[TOOL].expanded[at] = expanded(share * np.abs(piece.tool), np.full(piece.tool.shape, np.inf))
-        _blank(numbers, parts, supported, at, _shaped(piece.asked), no_normal)
+        asked = piece.asked.T.copy()
+        asked[:, 3] &= np.isfinite(path.left[at]).all(axis=1)
+        supported[at] &= asked
+        for one in numbers.values():
+            one[at][~asked] = np.nan
     return PathPrediction(
         name="",
         path=path,
@@ -99,25 +100,37 @@ def _gathered(knowledge: Knowledge, path: ToolPath, cut: Cut, split: bool, prior
         normal_to=cut.normal_to,
         wrench=wrench,
         supported=supported,
-        parts=parts,
+        parts={},
+        split_at=np.zeros(0, dtype=np.intp),
         verdict=(),
         **numbers,
     )
 
 
-def _blank(
-    numbers: dict[str, Array],
-    parts: dict[str, PartOfDeviation],
-    supported: Any,
-    at: slice,
-    asked: Any,
-    no_normal: Flags,
-) -> None:
-    """Take out what is no prediction: components that nothing asked for moves, and normals where the path has none."""
-    asked = asked & ~np.column_stack([np.zeros((len(no_normal), 3), dtype=bool), no_normal])
-    supported[at] &= asked
-    for one in (*numbers.values(), *(a for part in parts.values() for a in (part.value, part.expanded))):
-        one[at][~asked] = np.nan
+def _split(found: PathPrediction, knowledge: Knowledge, cut: Cut, prior: bool) -> PathPrediction:
+    """With its parts: at all points of a short path, at some of a long one and where it is off most."""
+    at = _shown(found)
+    asked = found.asked[at]
+    parts = {}
+    for name, part in parts_of(knowledge, found.path, cut, at, prior).items():
+        value, wide = _shaped(part.value), _shaped(part.expanded)
+        parts[name] = PartOfDeviation(np.where(asked, value, np.nan), np.where(asked, wide, np.nan))
+    if cut.tool is not None:
+        value = Piece(found.path, cut, at).tool_deflection()
+        wide = expanded(cut.tool.relative_uncertainty * np.abs(value), np.full(value.shape, np.inf))
+        parts[TOOL] = PartOfDeviation(np.where(asked, value, np.nan), np.where(asked, wide, np.nan))
+    return replace(found, parts=parts, split_at=at)
+
+
+def _shown(found: PathPrediction) -> Rows:
+    """Points whose parts are wanted: evenly chosen, and the least and greatest deviation of every component."""
+    m = len(found.path)
+    if m <= SPLIT_POINTS:
+        return np.arange(m)
+    ends = [
+        extreme(column) for column in found.value.T if np.isfinite(column).any() for extreme in (np.nanargmin, np.nanargmax)
+    ]
+    return np.unique([*np.linspace(0, m - 1, SPLIT_POINTS).round().astype(np.intp), *ends])
 
 
 def _combined(piece: PieceDeviation, cut: Cut, loaded: Array | None) -> tuple[Array, Array]:
@@ -129,28 +142,27 @@ def _combined(piece: PieceDeviation, cut: Cut, loaded: Array | None) -> tuple[Ar
         return own, degrees
     each = np.abs(np.stack([own, force, tool], axis=-1)).reshape(-1, 3)
     freedom = np.column_stack([degrees.ravel(), np.full((own.size, 2), np.inf)])
-    known = np.isfinite(each).all(axis=1) & np.isfinite(freedom[:, 0])
+    known = np.isfinite(each).all(axis=1) & ~np.isnan(freedom[:, 0])
     total, effective = np.full(own.size, np.nan), np.full(own.size, np.nan)
     total[known] = np.linalg.norm(each[known], axis=1)
     effective[known] = effective_degrees_of_freedom(each[known], freedom[known])
-    return _shaped(total), _shaped(effective)
+    return total.reshape(own.shape), effective.reshape(own.shape)
 
 
 def _by_load(knowledge: Knowledge, path: ToolPath, cut: Cut, piece: PieceDeviation) -> Array:
     """What the force does, shape (k, 4) [mm], of the machine and the tool: less what weights do without it."""
     elastic = part_members(knowledge)[COMPLIANCE]
-    found = piece.parts.get(COMPLIANCE) or knowledge.predict(_asked(knowledge, path, cut, piece.part) * elastic)
-    weighed = cut.workpiece is not None or any(joint.mass for joint in path.machine.joints)
-    unloaded = replace(cut, force=None)
-    rest = knowledge.predict(_asked(knowledge, path, unloaded, piece.part) * elastic).value if weighed else 0.0
-    return np.asarray(_shaped(found.value - rest) + piece.tool)
 
+    def by(loads: Cut) -> Array:
+        asked = Piece(path, loads, piece.part).functionals(knowledge)
+        return predicted_along(knowledge, asked * elastic).value
 
-def _asked(knowledge: Knowledge, path: ToolPath, cut: Cut, part: slice) -> Array:
-    asked = Piece(path, cut, part).functionals(knowledge)
-    return np.asarray(asked.reshape(-1, asked.shape[2]))
+    found = by(cut)
+    if cut.workpiece is not None or any(joint.mass for joint in path.machine.joints):
+        found = found - by(replace(cut, force=None))
+    return np.asarray(_shaped(found) + piece.tool)
 
 
 def _shaped(values: Any) -> Any:
-    """What stands one after the other, as a row for each point."""
-    return np.asarray(values).reshape(-1, len(DEVIATION_COMPONENTS))
+    """What stands component after component, as a row for each point."""
+    return np.asarray(values).reshape(len(DEVIATION_COMPONENTS), -1).T

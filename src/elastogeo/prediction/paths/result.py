@@ -12,6 +12,7 @@ from elastogeo.estimate import coverage_factor
 from elastogeo.identification import Check
 from elastogeo.machine import Array, ToolPath
 from elastogeo.prediction.knowledge import Flags
+from elastogeo.prediction.paths.along import Rows
 from elastogeo.result import Result
 
 
@@ -21,9 +22,9 @@ class PartOfDeviation(ByValue):
 
     Attributes
     ----------
-    value : array, shape (m, 4) [mm]
+    value : array, shape (k, 4) [mm]
         Along x, y, z of the workpiece and along the normal of the path.
-    expanded : array, shape (m, 4) [mm]
+    expanded : array, shape (k, 4) [mm]
         U: half the width of the 95 % interval.
     """
 
@@ -32,7 +33,7 @@ class PartOfDeviation(ByValue):
 
     @property
     def supported(self) -> Flags:
-        """Whether the tests determine it, along all axes of the workpiece, shape (m,)."""
+        """Whether the tests determine it, along all axes of the workpiece, shape (k,)."""
         return np.asarray(np.isfinite(self.value[:, :3]).all(axis=1))
 
 
@@ -65,6 +66,8 @@ class PathPrediction(Result):
         Share of the variance that is the stated prior's.
     parts : mapping of str to PartOfDeviation
         `geometry` and `compliance` of the machine; `spindle side` and `workpiece side` of it; `tool`: tool and holder.
+    split_at : array of int, shape (k,)
+        The points at which the parts are given: all of a short path.
     verdict : tuple of Check
     simulated : str
         From what the readings of the tests are simulated, in words; empty if all were measured.
@@ -83,6 +86,7 @@ class PathPrediction(Result):
     unsupported: Array
     prior_share: Array
     parts: Mapping[str, PartOfDeviation]
+    split_at: Rows
     verdict: tuple[Check, ...]
     simulated: str = ""
 

@@ -9,8 +9,9 @@ normal_to : side of the travel to which the normal counts as positive
 extremes : by component (x, y, z of the workpiece, normal) the least and greatest deviation:
     {value_um, interval95_um, point, way_mm}
 points : of at most 2000 points, evenly chosen, with the extremes: [{point, block, way_mm, x_mm, y_mm, z_mm, force_N,
-    deviation_um, standard_uncertainty_um, interval95_um, supported, prior_share, parts}], each a list over x, y, z, normal;
-    null where nothing is predicted
+    deviation_um, standard_uncertainty_um, interval95_um, supported, prior_share}], each a list over x, y, z, normal; null
+    where nothing is predicted
+parts : at the same points, as far as it was split there: by name [{point, value_um, expanded_um}]
 verdict : as in `envelope`
 """
 
@@ -49,6 +50,7 @@ def path_json(found: PathPrediction) -> dict[str, Any]:
             "normal_to": found.normal_to,
             "extremes": _extremes(found),
             "points": point_entries(found),
+            "parts": _part_entries(found),
             "verdict": verdict_entries(found.verdict),
         },
     )
@@ -72,10 +74,19 @@ def point_entries(found: PathPrediction, most: int = MOST_POINTS) -> list[dict[s
             ],
             "supported": found.supported[at].tolist(),
             "prior_share": found.prior_share[at].tolist(),
-            "parts": {name: (part.value[at] * UM).tolist() for name, part in found.parts.items()},
         }
         for at in map(int, thinned_points(found.value[:, main_component(found)], most))
     ]
+
+
+def _part_entries(found: PathPrediction) -> dict[str, Any]:
+    return {
+        name: [
+            {"point": int(at) + 1, "value_um": (value * UM).tolist(), "expanded_um": (wide * UM).tolist()}
+            for at, value, wide in zip(found.split_at, part.value, part.expanded, strict=True)
+        ]
+        for name, part in found.parts.items()
+    }
 
 
 def _extremes(found: PathPrediction) -> dict[str, Any]:

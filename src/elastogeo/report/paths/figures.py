@@ -76,7 +76,8 @@ def way_figure(found: PathPrediction) -> Figure:
 def split_figure(found: PathPrediction) -> Figure:
     """What each part adds along the way, both ways to split it."""
     k = main_component(found)
-    chosen = thinned_points(found.value[:, k], _POINTS)
+    own = thinned_points(found.value[found.split_at, k], _POINTS)
+    chosen = found.split_at[own]
     way, whole = found.path.travelled[chosen], found.value[chosen, k] * UM
     figure = new_figure(3.9)
     axes = figure.subplots(2, 1, sharex=True, sharey=True)
@@ -85,7 +86,7 @@ def split_figure(found: PathPrediction) -> Figure:
         ax.plot(way, whole, color=INK, linewidth=0.9, label=_TOGETHER)
         for name in names:
             if name in found.parts:
-                values, wide = (one[chosen, k] * UM for one in (found.parts[name].value, found.parts[name].expanded))
+                values, wide = (one[own, k] * UM for one in (found.parts[name].value, found.parts[name].expanded))
                 ax.plot(way, values, color=_PARTS[name], label=name)
                 ax.fill_between(way, values - wide, values + wide, color=_PARTS[name], alpha=0.18, linewidth=0)
                 if not np.isfinite(values).any():

@@ -70,12 +70,12 @@ def split_rows(found: PathPrediction) -> tuple[tuple[str, ...], ...]:
     at = worst_point(found)
     if at is None:
         return ()
-    rows = []
+    rows, k_at = [], int(np.searchsorted(found.split_at, at))
     for name, part in found.parts.items():
         asked = np.nan_to_num(part.value).any() or np.nan_to_num(part.expanded).any()
         cells = (
-            (said_um(part.value[at, k], part.expanded[at, k]) if asked else NOT_ASKED)
-            if np.isfinite(part.value[at, k])
+            (said_um(part.value[k_at, k], part.expanded[k_at, k]) if asked else NOT_ASKED)
+            if np.isfinite(part.value[k_at, k])
             else _why(found, at, k)
             for k in range(len(DEVIATION_COMPONENTS))
         )
