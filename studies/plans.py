@@ -27,8 +27,9 @@ KNOWN = 0.2
 POSES = 900
 """Poses at which the compliance is judged."""
 
-WORKSPACE_POSES = 40
-"""Poses of the workspace goal, six directions each."""
+WORKSPACE_POSES, SEED, FIRST = 300, 2, 240
+"""Poses of the workspace goal, six directions each: those that a plan says its worst uncertainty of. How many of them are
+looked at first."""
 
 BLOCK = 500
 """Random sets that are judged at once."""
@@ -64,7 +65,7 @@ class Judge:
     missed : array, shape (m,)
         Variance of each that no candidate takes off; so of the parameters, `unseen`, shape (p,).
     workspace : array, shape (w, r)
-        What the workspace goal is about, at poses that no plan has seen.
+        What the workspace goal is about: the poses by which a plan is judged.
     outside : array, shape (w,)
         Variance of each that no candidate takes off.
     basis : array, shape (p, r)
@@ -84,20 +85,29 @@ class Judge:
         """Each goal's own measure of sets of candidates, with the stated prior, greater for a better one.
 
         The log determinant of the information; the sum of `t^2 / (t^2 + u^2)` over the parameters; less the greatest
-        standard uncertainty in the workspace [nm/N].
+        standard uncertainty in the workspace [nm/N]; of a set that is no better than one before it, less a part of it.
         """
         found = []
+        best = np.inf
         for first in range(0, len(sets), BLOCK):
             taken = np.array(sets[first : first + BLOCK])
             rows = self.rows[taken].reshape(len(taken), -1, self.rows.shape[2])
             precision = np.eye(rows.shape[2]) + rows.transpose(0, 2, 1) @ rows
             S = np.linalg.inv(precision)
-            worst = np.max(np.sum((self.workspace @ S) * self.workspace, axis=2) + self.outside, axis=1)
+            worst = self._worst(S, slice(None, FIRST))  # those of a part of the poses are not above those of all
+            for k in np.flatnonzero(worst < best):
+                worst[k] = self._worst(S[k : k + 1], slice(None))[0]
+                best = min(best, worst[k])
             alone = np.sum((self.basis @ S) * self.basis, axis=2) + self.unseen
             known = np.sum(KNOWN**2 / (KNOWN**2 + alone), axis=1)
             found.append((np.linalg.slogdet(precision)[1], known, -np.sqrt(worst) * 1e6))
         columns = (np.concatenate(part) for part in zip(*found, strict=True))
         return dict(zip(("information", "parameters", "workspace"), columns, strict=True))
+
+    def _worst(self, S: Array, part: slice) -> Array:
+        """Greatest variance of part of the workspace of each covariance, shape (n,)."""
+        inside, outside = self.workspace[part], self.outside[part]
+        return np.asarray(np.max(np.sum((inside @ S) * inside, axis=2) + outside, axis=1))
 
     def number(self, plan: Plan) -> list[int]:
         """The candidates of a plan, as their numbers."""
@@ -129,7 +139,7 @@ def judge(means: Means, count: int, poses: int = POSES, seed: int = 7) -> Judge:
     for k, own in enumerate(told):
         rows[k, : len(own)] = own @ basis
     functional = compliances(means, asked, poses, seed)
-    goal = workspace(means, asked, WORKSPACE_POSES, seed).functionals
+    goal = workspace(means, asked, WORKSPACE_POSES, SEED).functionals
     inside, missed, own, outside = *_split(functional, basis), *_split(goal, basis)
     return Judge(means, offered, rows, inside, missed, 1 - np.sum(basis**2, axis=1), own, outside, basis)
 

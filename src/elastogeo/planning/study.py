@@ -11,7 +11,7 @@ import numpy as np
 from elastogeo.errors import UnsupportedError
 from elastogeo.machine import Array
 from elastogeo.observe import Campaign, family_of
-from elastogeo.planning.choosing.choice import Budget, Progress, chosen, covariance_of, extended, one_by_one
+from elastogeo.planning.choosing.choice import Budget, Progress, chosen, covariance_of, exchanged, extended, one_by_one
 from elastogeo.planning.choosing.goals import Goal, Information, MeanVariance, NearlyWorst, Parameters, Worst
 from elastogeo.planning.choosing.space import Space, row_space, space_of
 from elastogeo.planning.expectations import data_uncertainty
@@ -26,8 +26,12 @@ from elastogeo.planning.result import ToolSupport
 from elastogeo.planning.workspace import Workspace, workspace
 from elastogeo.prediction import SUPPORTED, unsupported_share
 
-CHOOSING_POSES, JUDGING_POSES = 64, 150
-"""Poses of all tools together while choosing; of each tool, others, to judge what was chosen."""
+CHOOSING_POSES, JUDGING_POSES = 48, 300
+"""Poses of all tools together to begin choosing with; of each tool, others, to judge what was chosen."""
+
+ROUNDS, WORST_ADDED, NEAR = 4, 30, 1.02
+"""How often a plan is held against the judging poses; how many of the worst of them are then chosen by too; the ratio of the
+worst of both within which they agree."""
 
 OF_A_KIND = 12
 """Tests of one instrument that are looked at to see what it loads and reads."""
@@ -138,11 +142,32 @@ def chosen_of(
             )
     budget = Budget(tests, inf if minutes is None else minutes)
     taken = chosen(study.space, goals_of(study, goal, names), study.minutes, budget, progress=progress)
+    if goal == "workspace":
+        progress("looking for the worst places")
+        taken = _against_the_worst(study, taken, budget)
     if not taken:
         raise UnsupportedError(
             f"no test fits into {minutes:g} minutes; the shortest takes {study.minutes.min():.0f}: plan more time"
         )
     return taken
+
+
+def _against_the_worst(study: Study, taken: list[int], budget: Budget) -> list[int]:
+    """A plan improved at the worst of the judging poses too, which it was not chosen by: a worst place is soon missed."""
+    inside, outside = study.space.projected(study.judging.functionals)
+    chosen_by = study.space.projected(study.choosing.functionals)
+    best, least = taken, np.inf
+    for _ in range(ROUNDS):
+        variances = Worst(inside, outside).variances(covariance_of(study.space, taken))
+        if variances.max() < least:
+            best, least = taken, float(variances.max())
+        if variances.max() <= NEAR**2 * Worst(*chosen_by).variances(covariance_of(study.space, taken)).max():
+            break
+        worst = np.argsort(-variances)[:WORST_ADDED]
+        chosen_by = np.vstack([chosen_by[0], inside[worst]]), np.concatenate([chosen_by[1], outside[worst]])
+        for goal in (NearlyWorst(*chosen_by), Worst(*chosen_by)):
+            taken = exchanged(study.space, goal, study.minutes, budget, taken)
+    return best
 
 
 def needed_for(study: Study, names: Sequence[str]) -> int | None:
@@ -172,9 +197,9 @@ def highest_rank(study: Study) -> int:
     """Directions that any tests of the kinds of these candidates tell, with these tools: at least what all of them do."""
     machine = study.means.machine
     found = row_space(study.told(range(len(study.offered)))).shape[1]
-    kinds: dict[str, list[Candidate]] = {}
+    kinds: dict[type, list[Candidate]] = {}
     for one in study.offered:
-        kinds.setdefault(one.test.instrument, []).append(one)
+        kinds.setdefault(type(one.test.setup), []).append(one)
     some = [one.test for own in kinds.values() for one in own[:OF_A_KIND]]
     family = family_of(machine, [run for test in some for run in test.observations()])
     if family is None or study.made:

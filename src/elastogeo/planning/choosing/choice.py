@@ -75,7 +75,7 @@ def chosen(
     begun = [_greedy(space, goals[0], minutes, budget)]
     begun += [_drawn(random, minutes, budget, len(begun[0])) for _ in range(starts)]
     for k, goal in enumerate(goals):
-        begun = [_exchanged(space, goal, minutes, budget, one) for one in begun]
+        begun = [exchanged(space, goal, minutes, budget, one) for one in begun]
         begun.sort(key=lambda one: goals[-1].score(covariance_of(space, one)), reverse=True)
         begun = begun[: max(KEPT - k, 1)] if len(goals) > 1 else begun
         progress(goal.name)
@@ -153,7 +153,7 @@ def _drawn(random: np.random.Generator, minutes: Array, budget: Budget, size: in
     return found
 
 
-def _exchanged(space: Space, goal: Goal, minutes: Array, budget: Budget, taken: Sequence[int]) -> list[int]:
+def exchanged(space: Space, goal: Goal, minutes: Array, budget: Budget, taken: Sequence[int]) -> list[int]:
     """Each test in turn replaced by the candidate that does best beside the others, until none does better."""
     found = list(taken)
     if not found:

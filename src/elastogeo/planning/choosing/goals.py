@@ -47,7 +47,7 @@ def taken_off(covariance: Array, rows: Array) -> tuple[Array, Array]:
     """What each candidate takes off a covariance, W of shape (n, q, r), and the diagonal of its L, shape (n, q)."""
     through = rows @ covariance
     L = np.linalg.cholesky(np.eye(rows.shape[1]) + through @ rows.transpose(0, 2, 1))
-    return np.linalg.solve(L, through), np.diagonal(L, axis1=1, axis2=2)
+    return np.linalg.inv(L) @ through, np.diagonal(L, axis1=1, axis2=2)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -11,7 +11,7 @@ from elastogeo.errors import PathError
 from elastogeo.machine import Array, Point
 from elastogeo.observe import BallBar, Circle, LoadedBallBar, MachineTest, Question, Run
 from elastogeo.planning.offers.candidate import Candidate
-from elastogeo.planning.offers.clearance import longest_arc
+from elastogeo.planning.offers.clearance import Flags, longest_arc
 from elastogeo.planning.offers.means import Means, minutes
 from elastogeo.planning.offers.proposal import Draft, proposes
 
@@ -95,9 +95,9 @@ def _draft(means: Means, circle: Circle, tool: Point, word: str, make: MakeSetup
         seen = setup.observe(means.machine, _run("free", angle, forces[0] if forces else None))
     except PathError:
         return None
-    first, count = longest_arc(means.clearance.free(means.machine, seen))
-    if circle.rotary_turn:  # a motion of a rotary axis need not close: only what begins at its start is one arc
-        first, count = _unbroken(means.clearance.free(means.machine, seen))
+    free = means.clearance.free(means.machine, seen)
+    # a motion of a rotary axis need not close: an arc of it does not go around the end
+    first, count = _unbroken(free) if circle.rotary_turn else longest_arc(free)
     arc = 2 * np.pi * count / means.readings
     if arc < LEAST_ARC:
         return None
@@ -108,7 +108,7 @@ def _draft(means: Means, circle: Circle, tool: Point, word: str, make: MakeSetup
     return Candidate(word, test, minutes(len(runs), arc * circle.radius, means.feed))
 
 
-def _unbroken(free: Array) -> tuple[int, int]:
+def _unbroken(free: Flags) -> tuple[int, int]:
     """First reading and length of the longest unbroken part that does not go around the end."""
     edges = np.diff(np.concatenate([[0], free.astype(int), [0]]))
     starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)

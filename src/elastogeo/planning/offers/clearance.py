@@ -18,6 +18,9 @@ from elastogeo.errors import InputError
 from elastogeo.machine import Angle, Array, Machine, loop_frames
 from elastogeo.observe import Observations
 
+Flags = np.ndarray[tuple[int], np.dtype[np.bool_]]
+"""One for each reading, shape (m,)."""
+
 CONE, SPINDLE_TO_TABLE = radians(40.0), radians(95.0)
 
 
@@ -42,23 +45,27 @@ class Clearance:
             if not 0 <= value <= np.pi:
                 raise InputError(f"the {name} is {value:g} rad; it must be 0 to pi: is it in degrees?")
 
-    def free(self, machine: Machine, observations: Observations) -> Array:
+    def free(self, machine: Machine, observations: Observations) -> Flags:
         """Whether each reading is clear, shape (m,): of a bar along its direction, from the workpiece to the tool."""
-        frames = loop_frames(machine, observations.commands, observations.tool)
-        spindle = frames.tool.vector(np.array([0.0, 0.0, 1.0]))
-        normal = frames.workpiece.vector(table_normal(machine))
+        spindle, normal = _spindle_and_normal(machine, observations.commands)
         bar = observations.direction[:, :3]
         near = np.cos(self.cone)
         at_tool = np.sum(-bar * spindle, axis=1) <= near
         at_workpiece = np.sum(bar * -normal, axis=1) <= near
-        return np.asarray(at_tool & at_workpiece & self.stands(machine, observations.commands))
+        return np.asarray(at_tool & at_workpiece & self._before_the_table(spindle, normal))
 
-    def stands(self, machine: Machine, commands: Array) -> Array:
+    def stands(self, machine: Machine, commands: Array) -> Flags:
         """Whether the spindle stands before the table, at axis commands of shape (m, n): shape (m,)."""
-        frames = loop_frames(machine, commands)
-        spindle = frames.tool.vector(np.array([0.0, 0.0, 1.0]))
-        normal = frames.workpiece.vector(table_normal(machine))
-        return np.broadcast_to(np.sum(spindle * normal, axis=1) >= np.cos(self.spindle_to_table), len(commands))
+        return np.broadcast_to(self._before_the_table(*_spindle_and_normal(machine, commands)), len(commands))
+
+    def _before_the_table(self, spindle: Array, normal: Array) -> Flags:
+        return np.asarray(np.sum(spindle * normal, axis=1) >= np.cos(self.spindle_to_table))
+
+
+def _spindle_and_normal(machine: Machine, commands: Array) -> tuple[Array, Array]:
+    """Directions of the spindle and of the table's normal, shape (m or 1, 3)."""
+    frames = loop_frames(machine, commands)
+    return frames.tool.vector(np.array([0.0, 0.0, 1.0])), frames.workpiece.vector(table_normal(machine))
 
 
 @lru_cache(maxsize=64)
@@ -68,7 +75,7 @@ def table_normal(machine: Machine) -> Array:
     return np.asarray(frames.workpiece.components(-np.array([machine.gravity]))[0])
 
 
-def longest_arc(free: Array) -> tuple[int, int]:
+def longest_arc(free: Flags) -> tuple[int, int]:
     """First reading and length of the longest unbroken part of a full turn, `free` of shape (m,), around its end too."""
     if free.all():
         return 0, len(free)
