@@ -1,8 +1,8 @@
 """Time and memory of a plan: `python benchmarks/plans.py [CANDIDATES ...]`, eight tests of a five-axis machine.
 
-From the machine to the plan: drawing tests within the travel, working out what each tells, choosing, and what the chosen ones
-will tell. Times are of the processor and of the clock, after a small plan; each size runs in a process of its own. It is no
-test: nothing is asserted.
+From the machine to the plan: drawing tests within the travel, working out what each tells, choosing, and what the chosen
+ones will tell. Times are of the processor and of the clock, after a small plan; each size runs in a process of its own. It
+is no test: nothing is asserted.
 """
 
 from __future__ import annotations
