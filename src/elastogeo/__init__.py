@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from elastogeo.machine import Machine
     from elastogeo.observe import Campaign, MachineTest
     from elastogeo.planning import plan
-    from elastogeo.prediction import compensate, predict
+    from elastogeo.prediction import compensate, compensate_path, predict
     from elastogeo.result import Result
 
 __version__ = version.VERSION
@@ -72,6 +72,7 @@ _HOME = {
     "calibrate": "identification",
     "compare": "identification",
     "compensate": "prediction",
+    "compensate_path": "prediction",
     "diagnose": "identification",
     "evaluate_positioning": "identification",
     "evaluate_static": "identification",
@@ -113,6 +114,7 @@ __all__ = [
     "calibrate",
     "compare",
     "compensate",
+    "compensate_path",
     "diagnose",
     "evaluate_positioning",
     "evaluate_static",

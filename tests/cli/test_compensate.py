@@ -9,9 +9,11 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
+import elastogeo as eg
 from elastogeo.cli.prediction.compensate import compensate
 from elastogeo.errors import InputError
 from elastogeo.formats import new_test, read_compensation, simulate
+from elastogeo.machine import Line
 
 
 @pytest.fixture(scope="module")
@@ -72,3 +74,30 @@ def test_the_report_has_its_files(folder: Path, tmp_path: Path) -> None:
 def test_wrong_options_are_refused(folder: Path, arguments: list[str], message: str) -> None:
     with pytest.raises(InputError, match=message):
         call(folder, *arguments)
+
+
+def test_a_program_is_moved_and_written(tmp_path: Path) -> None:
+    """Of the example of a ball bar: the new program is read again, and goes elsewhere than the old one."""
+    example = Path(__file__).resolve().parents[2] / "examples" / "ball-bar-diagnosis"
+    part = tmp_path / "part.ngc"
+    part.write_text("G21 G17 G90\nG0 X50 Y0\nG3 X50 Y0 I-50 J0 F600\nG1 X20 F900\nM2\n", encoding="ascii")
+    arguments = ["--program", part, "--output", tmp_path / "out", "--flavour", "linuxcnc", "-p", "E_XX1", "-p", "E_YY1"]
+    code, text = call(example, *arguments, "--report", tmp_path / "report")
+    assert code == 0
+    for words in (
+        "Compensated path",
+        "The deviation along x and y falls from",
+        "Not made good",
+        "no parameter was asked for",
+    ):
+        assert words in text
+    again = eg.read_program(tmp_path / "out" / "part.ngc")
+    ends = [block.to["X"] for block in again.blocks if isinstance(block, Line) and "X" in block.to]
+    assert ends[-1] != pytest.approx(20.0, abs=1e-4)
+    assert ends[-1] == pytest.approx(20.0, abs=2e-3)
+    assert {path.name for path in (tmp_path / "report").iterdir()} >= {"along-the-path.svg", "from-above.svg", "report.pdf"}
+    code, text = call(example, *arguments[:2], "-p", "E_XX1", "-p", "E_YY1", "--json")
+    document = json.loads(text)
+    assert document["schema"] == "elastogeo.path_compensation/1"
+    assert document["components"] == ["x", "y"]
+    assert document["points"][0]["before_um"][2] is None

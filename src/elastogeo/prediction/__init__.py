@@ -3,7 +3,7 @@
 Stands on `identification`, `formats` and all below; knows no figure.
 """
 
-from elastogeo.prediction.compensation import compensate
+from elastogeo.prediction.compensation import compensate, compensate_path
 from elastogeo.prediction.knowledge import Knowledge, Predicted, knowledge_of
 from elastogeo.prediction.paths import (
     DEVIATION_COMPONENTS,
@@ -39,6 +39,7 @@ __all__ = [
     "ToolCompliance",
     "collinear_stiffness_of",
     "compensate",
+    "compensate_path",
     "compliance_along",
     "compliance_scales",
     "deviations",

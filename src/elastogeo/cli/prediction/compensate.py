@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -25,12 +25,18 @@ def compensate(
         list[str] | None, typer.Option("--set", help="A setting of the control, as in type=1; may be repeated.")
     ] = None,
     zero: Annotated[
-        list[str] | None, typer.Option(help="Where the error of an axis counts as zero, as in X_mm=0 or C_deg=0.")
+        list[str] | None,
+        typer.Option(help="Where the error of an axis counts as zero, as in X_mm=0; of a program its zero (G54)."),
     ] = None,
+    program: Annotated[
+        Path | None, typer.Option(help="NC program whose points are moved, instead of files of the control.")
+    ] = None,
+    cut: Annotated[Path | None, typer.Option(help="Of a program, the cut file: force, tool and holder, workpiece.")] = None,
+    flavour: Annotated[str, typer.Option(help="In which the new program is written: iso, linuxcnc, ...")] = "iso",
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Write the compensation files of a control, and say what is left after them.
+    """Write the compensation files of a control, or a corrected program, and say what is left after them.
 
     Of positioning tests the means by target are written; of other tests, or with --parameter, the parameters that they
     determine together. Only what is greater than its uncertainty is written; the rest is named.
@@ -39,25 +45,43 @@ def compensate(
     Examples:
       elastogeo compensate axis-x axis-y --control linuxcnc --output for-the-control
       elastogeo compensate ball-bar --control sinumerik-cec
+      elastogeo compensate my-campaign --program part.ngc --cut cut.toml --flavour linuxcnc --output corrected
     """
     from elastogeo.cli import screen
 
+    written: tuple[Path, ...] = ()
     with screen.progress("reading the runs", quiet=as_json) as step:
-        read = [eg.read_test(test) for test in tests] if not parameters else []
-        by_target = bool(read) and all(test.instrument == "positioning" for test in read)
-        asked = None if by_target else eg.read_campaign(tests)
-        step("evaluating")
-        results = (
-            [eg.identify(asked, parameters=parameters)]
-            if asked is not None
-            else [eg.evaluate_positioning(test) for test in read]
-        )
-        found = eg.compensate(*results, control=control, settings=_pairs(setting, "--set", "type=1"), zero_at=_zeros(zero))
-    if output and found.files:
-        written = found.write(output)
-        if not as_json:
-            screen.say(f"Files: {', '.join(map(str, written))}")
-    screen.show(found, report, as_json)
+        result: object
+        if program is not None:
+            way = eg.read_program(program)
+            known = eg.identify(eg.read_campaign(tests), parameters=parameters)
+            step("predicting along the path")
+            loads = None if cut is None else eg.read_cut(cut)
+            moved = result = eg.compensate_path(known, way, loads, zero=_zeros(zero))
+            if output and moved.components:
+                written = eg.write_program(moved.program, output / program.name, flavour)
+        else:
+            results = _results(tests, parameters)
+            step("evaluating")
+            found = result = eg.compensate(
+                *results, control=control, settings=_pairs(setting, "--set", "type=1"), zero_at=_zeros(zero)
+            )
+            written = found.write(output) if output and found.files else ()
+    if written and not as_json:
+        screen.say(f"Files: {', '.join(map(str, written))}")
+    screen.show(result, report, as_json)
+
+
+def _results(tests: list[Path], parameters: list[str] | None) -> list[Any]:
+    """What the tests say: of positioning tests each for itself, of others and of parameters together."""
+    read = [eg.read_test(test) for test in tests] if not parameters and not _is_campaign(tests) else []
+    if read and all(test.instrument == "positioning" for test in read):
+        return [eg.evaluate_positioning(test) for test in read]
+    return [eg.identify(eg.read_campaign(tests), parameters=parameters)]
+
+
+def _is_campaign(tests: list[Path]) -> bool:
+    return any(path.name == "campaign.toml" or (path / "campaign.toml").exists() for path in tests)
 
 
 def _pairs(given: list[str] | None, option: str, example: str) -> dict[str, str]:

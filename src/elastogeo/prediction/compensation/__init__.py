@@ -1,7 +1,20 @@
-"""What a control can make good: error tables with their uncertainty, what of them is written, what is left after it."""
+"""What a control can make good: error tables with their uncertainty, what of them is written, what is left after it.
 
+Stands on the files of `prediction`, and on its wing `paths`: a corrected program is a path with its points moved.
+"""
+
+from elastogeo.prediction.compensation.along_path import compensate_path
 from elastogeo.prediction.compensation.compensate import compensate
 from elastogeo.prediction.compensation.parts import ErrorPart, FoundError
-from elastogeo.prediction.compensation.result import CompensatedError, Compensation, LeftOut
+from elastogeo.prediction.compensation.result import CompensatedError, Compensation, LeftOut, PathCompensation
 
-__all__ = ["CompensatedError", "Compensation", "ErrorPart", "FoundError", "LeftOut", "compensate"]
+__all__ = [
+    "CompensatedError",
+    "Compensation",
+    "ErrorPart",
+    "FoundError",
+    "LeftOut",
+    "PathCompensation",
+    "compensate",
+    "compensate_path",
+]

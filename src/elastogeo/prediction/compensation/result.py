@@ -12,9 +12,10 @@ from elastogeo.equality import ByValue
 from elastogeo.errors import UnsupportedError
 from elastogeo.formats import write_whole
 from elastogeo.identification import Check
-from elastogeo.machine import Array, ErrorTable
+from elastogeo.machine import Array, ErrorTable, Program
 from elastogeo.observe import Campaign
 from elastogeo.prediction.compensation.parts import FoundError
+from elastogeo.prediction.paths import PathPrediction
 from elastogeo.result import Result
 
 
@@ -27,10 +28,11 @@ class LeftOut:
     names : tuple of str
         Of parameters.
     table : str
-        Of the table that it belongs to: `E_XX`.
+        Of the table that it belongs to: `E_XX`; `path` of a component of the deviation along a path.
     reason : str
         `uncertainty` (it is not greater than its own), `no interval` (nothing shows its uncertainty), `not determined` (the
-        tests do not show it by itself), `control` (the control has no table for it), `not linear`.
+        tests do not show it by itself), `control` (the control has no table for it), `not asked` (no parameter that was
+        asked for moves it).
     size, doubt : float [mm or rad]
         Root mean square of the part and of its expanded uncertainty; NaN where there is none.
     why : str
@@ -108,6 +110,47 @@ class CompensatedError(ByValue):
 def _greatest(table: ErrorTable) -> tuple[float, float]:
     where = np.unravel_index(int(np.abs(table.value).argmax()), table.value.shape)
     return float(abs(table.value[where])), float(table.uncertainty[where])
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class PathCompensation(Result):
+    """A program with its points moved, and what is expected of the deviation along it.
+
+    Attributes
+    ----------
+    campaign : Campaign
+        The tests that the deviation was predicted from.
+    program : Program
+        With its points moved, of lines.
+    before : PathPrediction
+        Along the path as it was, of m points.
+    commands : array, shape (m, n) [mm, rad]
+        That the new program makes at these points.
+    shift : array, shape (m, 3) [mm]
+        By how much it commands the tool elsewhere, along the axes of the workpiece.
+    value : array, shape (m, 4) [mm]
+        Deviation from the path as it was meant, along x, y, z and the normal, that is expected after; NaN where the tests do
+        not support it.
+    expanded : array, shape (m, 4) [mm]
+        Its expanded uncertainty, 95 %.
+    components : tuple of str
+        Of `x`, `y`, `z`: those that are made good.
+    left_out : tuple of LeftOut
+    tolerance : float [mm]
+    verdict : tuple of Check
+    """
+
+    campaign: Campaign
+    program: Program
+    before: PathPrediction
+    commands: Array
+    shift: Array
+    value: Array
+    expanded: Array
+    components: tuple[str, ...]
+    left_out: tuple[LeftOut, ...]
+    tolerance: float
+    verdict: tuple[Check, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

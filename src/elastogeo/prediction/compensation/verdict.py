@@ -27,10 +27,10 @@ def checks(errors: Sequence[CompensatedError], left_out: Sequence[LeftOut], publ
     return (
         Check("something to make good", bool(errors), {"tables": _names(errors)}, decisive=True),
         *([_falls(errors), _fine(errors), _sign(errors, public)] if errors else []),
-        _left("determined by the tests", left_out, "not determined"),
-        _left("greater than its uncertainty", left_out, "uncertainty"),
-        _left("uncertainty known", left_out, "no interval"),
-        _left("within the control's means", left_out, "control"),
+        left_check("determined by the tests", left_out, "not determined"),
+        left_check("greater than its uncertainty", left_out, "uncertainty"),
+        left_check("uncertainty known", left_out, "no interval"),
+        left_check("within the control's means", left_out, "control"),
     )
 
 
@@ -87,7 +87,8 @@ def _sign(errors: Sequence[CompensatedError], public: bool) -> Check:
     return Check("sign sure", True if public else None, facts)
 
 
-def _left(name: str, left_out: Sequence[LeftOut], reason: str) -> Check:
+def left_check(name: str, left_out: Sequence[LeftOut], reason: str) -> Check:
+    """Whether nothing was left out for this reason."""
     found = [one for one in left_out if one.reason == reason]
     facts = {
         "names": tuple(dict.fromkeys(name for one in found for name in one.names)),

@@ -94,3 +94,29 @@ def within_the_controls_means(facts: Facts, passed: bool | None) -> str:
     if passed:
         return "The control has a table for every error that was found."
     return f"The control has no table for {several(facts['tables'])}: {'; '.join(facts['why'])}. It is left as it is."
+
+
+@says("path corrected")
+def path_corrected(facts: Facts, passed: bool | None) -> str:
+    """Which components of the deviation along a path are made good."""
+    if passed:
+        return f"The new program makes the deviation along {', '.join(facts['components'])} of the workpiece good."
+    return "Nothing of the deviation is certain and determined: the program is as it was."
+
+
+@says("deviation falls for sure")
+def deviation_falls_for_sure(facts: Facts, passed: bool | None) -> str:
+    """Whether the deviation along the path is smaller after, whatever it truly is."""
+    before, after = said(facts["before"], False), said(facts["after"], False)
+    told = (
+        f"The greatest deviation along one axis, at {facts['points']} points, is {before} before and at most {after} after"
+    )
+    return f"{told}." if passed else f"{told}: it is hardly greater than its uncertainty. More tests make it surer."
+
+
+@says("asked of the tests")
+def asked_of_the_tests(facts: Facts, passed: bool | None) -> str:
+    """Along which axes nothing was asked."""
+    if passed:
+        return "The tests were asked for parameters along every axis of the workpiece."
+    return f"No parameter was asked for that moves the tool along {', '.join(facts['names'])}: nothing is made good there."
