@@ -25,6 +25,7 @@ PAGES = (
     "compensation.md",
     "programs.md",
     "campaigns.md",
+    "planning.md",
 )
 
 
