@@ -190,10 +190,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--sets", type=int, default=10_000, help="random sets (10000)")
     parser.add_argument("--candidates", type=int, default=500, help="tests to choose from (500)")
+    parser.add_argument("--tests", type=int, nargs="*", default=[3, 5, 8], help="of a plan (3 5 8)")
     given = parser.parse_args(arguments)
     five = judge(Means(hermle()), given.candidates)
     print(f"{'k':>3}  {'goal':<12}{'best of random':>16}{'plan':>10}")
-    for k in (3, 5, 8):
+    for k in given.tests:
         random = best_of_random(five, k, given.sets)
         for goal, best in random.items():
             plan = eg.plan(five.means, tests=k, goal=goal, chosen_from=five.offered)
