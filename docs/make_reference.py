@@ -32,7 +32,7 @@ GROUPS = {
         "identify_drives", "calibrate",
     ),
     "Before and after a test": (
-        "plan", "write_program", "read_program", "compensate", "compensate_path",
+        "plan", "map_compliance", "write_program", "read_program", "compensate", "compensate_path",
     ),
     "What comes back": ("Result", "Estimate", "MachineTest", "Campaign", "Machine"),
     "What may go wrong": ("ElastogeoError", "InputError", "UnsupportedError"),

@@ -24,6 +24,7 @@ PAGES = (
     "positioning.md",
     "compensation.md",
     "programs.md",
+    "prediction.md",
     "campaigns.md",
     "planning.md",
 )

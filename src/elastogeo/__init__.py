@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from elastogeo.machine import Machine
     from elastogeo.observe import Campaign, MachineTest
     from elastogeo.planning import plan
-    from elastogeo.prediction import compensate, compensate_path, predict
+    from elastogeo.prediction import compensate, compensate_path, map_compliance, predict
     from elastogeo.result import Result
 
 __version__ = version.VERSION
@@ -82,6 +82,7 @@ _HOME = {
     "identify_drives": "identification",
     "inspect_file": "formats",
     "machines": "formats",
+    "map_compliance": "prediction",
     "map_stiffness": "identification",
     "new_test": "formats",
     "plan": "planning",
@@ -124,6 +125,7 @@ __all__ = [
     "identify_drives",
     "inspect_file",
     "machines",
+    "map_compliance",
     "map_stiffness",
     "new_test",
     "plan",

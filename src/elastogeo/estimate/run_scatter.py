@@ -103,15 +103,19 @@ class RunScatter(ByValue):
         )
 
     def _freedom(self, over: Array) -> Array:
-        if len(self.shares) < FEWEST_RUNS:
+        runs, size, kept = self.directions.shape
+        if runs < FEWEST_RUNS:
             return np.zeros(len(over))
-        along = np.einsum("mp,gpk->mgk", over, self.directions, optimize=True)
-        hanging = np.linalg.norm(along * ((1 - self.shares**2) <= SINGULAR), axis=2)
-        own = np.sum((along * self.shares * self._lift()) ** 2, axis=2)
-        across = np.einsum("mgk,gpk->mgp", along * (self.shares**2 * self._lift()), self.directions, optimize=True)
-        gram = own[:, :, np.newaxis] * np.eye(len(self.shares)) - across @ across.swapaxes(1, 2)
-        trace, square = np.trace(gram, axis1=1, axis2=2), np.sum(gram**2, axis=(1, 2))
-        return _ratio(trace, square, np.linalg.norm(hanging, axis=1), np.linalg.norm(over, axis=1))
+        along = (over @ self.directions.transpose(1, 0, 2).reshape(size, -1)).reshape(-1, runs, kept)
+        hanging = np.linalg.norm(along * (1 - self.shares**2 <= SINGULAR), axis=(1, 2))
+        own = np.sum((along * (self.shares * self._lift())) ** 2, axis=2)
+        part = (along * (self.shares**2 * self._lift())).swapaxes(0, 1)
+        across = np.ascontiguousarray((part @ self.directions.swapaxes(1, 2)).swapaxes(0, 1))
+        gram = across.swapaxes(1, 2) @ across
+        taken = np.einsum("mgp,mgp->mg", across, across)
+        # of the matrix `diag(own) - across across^T`, without making it
+        square = np.sum(own * (own - 2 * taken), axis=1) + np.einsum("mpq,mpq->m", gram, gram)
+        return _ratio(np.sum(own - taken, axis=1), square, hanging, np.linalg.norm(over, axis=1))
 
     def _lift(self) -> Array:
         """What the residuals of each run are lifted by for the share that the fit took, shape (g, k)."""

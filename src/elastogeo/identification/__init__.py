@@ -46,6 +46,7 @@ from elastogeo.identification.positioning import (
 )
 from elastogeo.identification.preference import moving_axes, retaining_order
 from elastogeo.identification.question import (
+    Asked,
     confounding_of,
     effects_of,
     sources_of,
@@ -106,6 +107,7 @@ __all__ = [
     "AgainstDynamometer",
     "AgainstOthers",
     "Agreement",
+    "Asked",
     "AxisDrive",
     "BallDeviations",
     "BarCalibration",

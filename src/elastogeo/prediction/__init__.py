@@ -5,6 +5,8 @@ Stands on `identification`, `formats` and all below; knows no figure.
 
 from elastogeo.prediction.compensation import compensate, compensate_path
 from elastogeo.prediction.knowledge import Knowledge, Predicted, knowledge_of
+from elastogeo.prediction.maps import Acceptance, ComplianceMap, Grid, Place, accepted, map_compliance
+from elastogeo.prediction.maps.verdict import FOUNDATION, LIMIT, NOTHING_LEFT_OUT, SUPPORTED_EVERYWHERE, UNCERTAINTY_KNOWN
 from elastogeo.prediction.paths import (
     DEVIATION_COMPONENTS,
     PARTS,
@@ -25,18 +27,28 @@ from elastogeo.prediction.virtual import functionals, virtual_observations
 
 __all__ = [
     "DEVIATION_COMPONENTS",
+    "FOUNDATION",
+    "LIMIT",
+    "NOTHING_LEFT_OUT",
     "PARTS",
     "SUPPORTED",
+    "SUPPORTED_EVERYWHERE",
     "TOOL",
     "TYPICAL_COMPLIANCE",
     "TYPICAL_LEVER",
+    "UNCERTAINTY_KNOWN",
+    "Acceptance",
+    "ComplianceMap",
+    "Grid",
     "Knowledge",
     "PartOfDeviation",
     "PathPrediction",
     "Piece",
     "PieceDeviation",
+    "Place",
     "Predicted",
     "ToolCompliance",
+    "accepted",
     "collinear_stiffness_of",
     "compensate",
     "compensate_path",
@@ -45,6 +57,7 @@ __all__ = [
     "deviations",
     "functionals",
     "knowledge_of",
+    "map_compliance",
     "parameter_scales",
     "path_deviation",
     "predict",

@@ -10,12 +10,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from math import inf, isfinite
 
 import numpy as np
 
 from elastogeo.equality import ByValue
 from elastogeo.estimate import (
     Confounding,
+    Estimate,
     RunScatter,
     ScatterAlong,
     Solution,
@@ -81,6 +83,11 @@ class Predicted(ByValue):
         """95 % coverage interval, shape (m, 2)."""
         return np.column_stack([self.value - self.expanded, self.value + self.expanded])
 
+    def estimate(self, k: int) -> Estimate:
+        """The value of one functional as an estimate; its uncertainty is infinite where nothing shows it."""
+        value, u, freedom = (float(one[k]) for one in (self.value, self.standard_uncertainty, self.degrees_of_freedom))
+        return Estimate(value, u, freedom) if isfinite(u) else Estimate(value, inf)
+
     @staticmethod
     def joined(parts: Sequence[Predicted]) -> Predicted:
         """The functionals of all parts, one after the other."""
@@ -140,14 +147,17 @@ class Span:
         """The values of combinations, of coefficients of shape (m, b); see `Knowledge.predict`."""
         blocks = range(0, len(coefficients), _ROWS) if len(coefficients) else (0,)
         found = [self._predicted(coefficients[first : first + _ROWS], prior) for first in blocks]
-        return found[0] if len(found) == 1 else _joined(found)
+        return Predicted.joined(found)
+
+    def unsupported(self, coefficients: Array) -> Array:
+        """The share of each combination that no test sees, shape (m,), 0 to 1."""
+        return _share(*(np.sum((coefficients @ part) ** 2, axis=1) for part in (self.seen, self.unseen)))
 
     def _predicted(self, coefficients: Array, prior: bool) -> Predicted:
         seen, unseen = (np.sum((coefficients @ part) ** 2, axis=1) for part in (self.seen, self.unseen))
-        whole = seen + unseen
-        unsupported = np.sqrt(np.divide(unseen, whole, out=np.zeros_like(whole), where=whole > 0))
+        unsupported = _share(seen, unseen)
         supported = unsupported < SUPPORTED
-        held = coefficients * (seen > SUPPORTED**2 * whole)[:, np.newaxis]
+        held = coefficients * (seen > SUPPORTED**2 * unseen)[:, np.newaxis]
         variance, freedom = self._variance(held)
         unseen = unseen * ~supported
         total = variance + unseen
@@ -179,10 +189,10 @@ class Span:
         return np.where(shown, own + np.sum(moved**2, axis=1), np.nan), effective
 
 
-def _joined(found: Sequence[Predicted]) -> Predicted:
-    return Predicted(
-        **{field.name: np.concatenate([getattr(one, field.name) for one in found]) for field in fields(Predicted)}
-    )
+def _share(seen: Array, unseen: Array) -> Array:
+    """The length of what is not seen over that of all, of the squares of both parts."""
+    whole = seen + unseen
+    return np.asarray(np.sqrt(np.divide(unseen, whole, out=np.zeros_like(whole), where=whole > 0)))
 
 
 def _narrow(rows: Array) -> Array:

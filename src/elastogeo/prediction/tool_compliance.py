@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf, isfinite
 
 import numpy as np
 
@@ -188,7 +187,7 @@ def tool_compliance(knowledge: Knowledge, commands: Array, tool: Array | None = 
     known[rigid], known[:, rigid] = np.nan, np.nan
 
     def estimate(weights: Array) -> Estimate:
-        return _estimate(knowledge, np.tensordot(_folded(weights), rows, axes=1), prior)
+        return knowledge.predict(np.tensordot(_folded(weights), rows, axes=1), prior).estimate(0)
 
     stiffness, half = _inverse(known, estimate)
     own = np.asarray(knowledge.machine.tool if tool is None else tool, dtype=float)
@@ -245,12 +244,6 @@ def _folded(weights: Array) -> Array:
     """Weights of all elements, shape (6, 6), as weights of those of a symmetric matrix."""
     both = weights + weights.T
     return np.array([both[i, j] if i != j else weights[i, i] for i, j in PAIRS])
-
-
-def _estimate(knowledge: Knowledge, functional: Array, prior: bool) -> Estimate:
-    found = knowledge.predict(functional, prior)
-    value, u, freedom = (float(part[0]) for part in (found.value, found.standard_uncertainty, found.degrees_of_freedom))
-    return Estimate(value, u, freedom) if isfinite(u) else Estimate(value, inf)
 
 
 def _inverse(known: Array, estimate: Linear) -> tuple[Array, Array]:

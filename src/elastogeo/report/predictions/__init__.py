@@ -1,0 +1,1 @@
+"""What predictions look like: maps of the compliance at the tool."""
