@@ -38,7 +38,7 @@ def map(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Map the compliance at the tool over the volume, where tests support it.
+    """Map how stiff the machine is at the tool, over its volume.
 
     A campaign of a dozen well-chosen circles tells it everywhere; one circle hardly beyond its own place. What the tests do
     not tell has no number.

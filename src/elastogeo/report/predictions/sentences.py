@@ -29,7 +29,7 @@ def supported_everywhere(facts: Facts, passed: bool | None) -> str:
     if not known:
         rest = "the values rest on the stated prior" if facts["prior"] else "there is no value"
         return (
-            f"{told}, and what is asked at none of the {facts['places']} places: {rest}. Plan tests for it: elastogeo plan."
+            f"{told}, and what is asked at none of the {facts['places']} places: {rest}. Plan tests for it (elastogeo plan)."
         )
     rest = "elsewhere the values rest on the stated prior" if facts["prior"] else rest
     return f"{told}, and what is asked at {known} of {facts['places']} places; {rest}. Plan tests for it."
