@@ -46,7 +46,7 @@ def plan(
     reciprocal: bool = False,
     chosen_from: Sequence[Candidate] = (),
     seed: int = 1,
-    progress: Callable[[str], None] = lambda _: None,
+    progress: Callable[[str], None] | None = None,
 ) -> Plan:
     """Which tests to run on a machine.
 
@@ -102,6 +102,7 @@ def plan(
     goal = "parameters" if names else goal
     _check(tests, minutes, goal)
     read, campaign = noise or ReadingNoise(), None if made is None else campaign_of(made)
+    progress = progress or _silent
     progress("drawing tests that fit into the travel")
     offered = tuple(chosen_from) or candidates(means, instruments, count, seed)
     progress(f"working out what {len(offered)} tests would tell")
@@ -219,3 +220,7 @@ def _check(tests: int | None, minutes: float | None, goal: str) -> None:
         raise InputError(f"a plan of {tests} tests is none; ask for one or more")
     if minutes is not None and not minutes > 0:
         raise InputError(f"a plan of {minutes:g} minutes is none; give the time there is, in minutes")
+
+
+def _silent(_: str) -> None:
+    """Nobody looks on."""
