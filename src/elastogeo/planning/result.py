@@ -81,8 +81,8 @@ class ToolSupport:
         Greatest standard uncertainty anywhere, with the stated prior.
     worst_at : mapping of str to float [mm, rad]
         Axis commands where the supported compliance is known worst.
-    tests_needed : int or None
-        Tests, those of the plan first, that support all of it; None if the candidates cannot.
+    tests_needed, more_needed : int or None
+        Tests that support all of it by themselves, and those that it takes beside the plan; None if the candidates cannot.
     """
 
     tool: Point
@@ -92,6 +92,7 @@ class ToolSupport:
     worst_with_prior: float
     worst_at: Mapping[str, float]
     tests_needed: int | None
+    more_needed: int | None
 
 
 @dataclass(frozen=True, slots=True)

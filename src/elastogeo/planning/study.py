@@ -219,6 +219,7 @@ def support_of(study: Study, taken: Sequence[int]) -> tuple[ToolSupport, ...]:
     for k, tool in enumerate(study.means.tool_points):
         here = study.judging.tool == k
         known = np.flatnonzero(here & supported)
+        more = needed_to_support(study, taken, k)
         at = int(known[np.argmax(uncertainty[known])]) if len(known) else int(np.argmax(np.where(here, with_prior, -1.0)))
         found.append(
             ToolSupport(
@@ -228,7 +229,8 @@ def support_of(study: Study, taken: Sequence[int]) -> tuple[ToolSupport, ...]:
                 worst=float(uncertainty[at]) if len(known) else None,
                 worst_with_prior=float(with_prior[here].max()),
                 worst_at=dict(zip(study.means.machine.axes, map(float, study.judging.commands[at]), strict=True)),
-                tests_needed=needed_to_support(study, taken, k),
+                tests_needed=needed_to_support(study, [], k),
+                more_needed=None if more is None else more - len(taken),
             )
         )
     return tuple(found)

@@ -19,11 +19,11 @@ def verdict_of(
 
 
 def _workspace(tools: Sequence[ToolSupport]) -> Check:
-    needed = [tool.tests_needed for tool in tools]
+    more = [tool.more_needed for tool in tools]
     facts = {
         "share": sum(tool.share for tool in tools) / len(tools),
         "tools": len(tools),
-        "needed": None if None in needed else max(n for n in needed if n is not None),
+        "more": None if None in more else max(n for n in more if n is not None),
         "worst": max((tool.worst for tool in tools if tool.worst is not None), default=None),
     }
     return Check("workspace supported", all(tool.share == 1.0 for tool in tools), facts)

@@ -13,7 +13,8 @@ rank, highest_rank, weak : directions determined, determined by any such tests, 
 fewest : how many tests support the whole workspace, or null
 never_alone : [{name, alike, probes: [{across, sensor, point_mm}]}], of the asked ones those that no test between tool and
     workpiece tells by itself; `alike` make the same trace, `probes` would tell it
-workspace : [{tool_mm, share, median, worst, worst_with_prior, worst_at, tests_needed}], standard uncertainties in mm/N
+workspace : [{tool_mm, share, median, worst, worst_with_prior, worst_at, tests_needed, more_needed}], standard
+    uncertainties in mm/N; how many tests support all of it at least, and how many it takes beside the plan
 next_best : {name, rank, worst_with_prior, supported} or null
 verdict : as in `envelope`
 """
@@ -95,6 +96,7 @@ def plan_json(plan: Plan) -> dict[str, Any]:
                     "worst_with_prior": tool.worst_with_prior,
                     "worst_at": dict(tool.worst_at),
                     "tests_needed": tool.tests_needed,
+                    "more_needed": tool.more_needed,
                 }
                 for tool in plan.tools
             ],

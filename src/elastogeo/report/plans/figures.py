@@ -2,39 +2,69 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
+from matplotlib.ticker import MaxNLocator
 
 from elastogeo.machine import COMPONENTS, Array
 from elastogeo.planning import ALONE, IN_A_SUM, Plan
-from elastogeo.report.drawing.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SMALL, WIDTH, new_figure
+from elastogeo.report.drawing.style import BLUE, FAINT, GREEN, GREY, ORANGE, READABLE, SMALL, WIDTH, new_figure
 
-_VIEWS = (("X", "Y"), ("X", "Z"), ("Y", "Z"))
+_PLACES = 9
+"""Places up to which a test that stands still is drawn as points."""
 _PALE = "#a6cee3"
 _KNOWN = {ALONE: GREEN, IN_A_SUM: _PALE}
 
 
 def volume_figure(plan: Plan) -> Figure:
-    """The travel of the linear axes from three sides, with the path of each test in it."""
+    """The travel of the linear axes from above and from both sides, with the path of each test in it.
+
+    From above at the left; X Z below it; Y Z at the right, so that each axis runs the same way in neighbouring views.
+    """
     machine = plan.means.machine
-    views = [pair for pair in _VIEWS if all(axis in machine.axes for axis in pair)]
-    figure = new_figure(2.9 if len(views) > 1 else 4.0)
-    axes = figure.subplots(1, len(views), squeeze=False)[0]
-    paths = [one.candidate.test.observations()[0].commands for one in plan.tests]
-    for ax, pair in zip(axes, views, strict=True):
-        _travel(ax, plan, pair)
-        for number, path in enumerate(paths, start=1):
-            _path(ax, plan, path, pair, number)
-    handles = [axes[0].plot([], [], color=colour, label=label)[0] for colour, label in _legend(plan)]
-    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
+    shown = [axis for axis in "XYZ" if axis in machine.axes]
+    if len(shown) < len("XYZ"):
+        return _few_axes(plan, shown)
+    spans = {axis: float(np.ptp(plan.means.travel(axis))) for axis in shown}
+    ratios = {"width_ratios": [spans["X"], spans["Y"]], "height_ratios": [spans["Y"], spans["Z"]]}
+    width = READABLE + 0.6
+    figure = new_figure(0.75 + width * 0.86 * (spans["Y"] + spans["Z"]) / (spans["X"] + spans["Y"]), width=width)
+    grid = figure.subplots(2, 2, gridspec_kw=ratios)
+    views = ((grid[0, 0], ("X", "Y")), (grid[1, 0], ("X", "Z")), (grid[1, 1], ("Y", "Z")))
+    grid[0, 1].axis("off")
+    _draw(plan, views)
+    grid[0, 1].legend(handles=_handles(plan), loc="center")
+    grid[0, 0].set_xlabel("")
     return figure
 
 
-def _legend(plan: Plan) -> list[tuple[str, str]]:
+def _few_axes(plan: Plan, shown: list[str]) -> Figure:
+    """Of a machine of two linear axes, or one."""
+    figure = new_figure(4.0, width=READABLE)
+    ax = figure.subplots()
+    _draw(plan, ((ax, (shown[0], shown[-1])),))
+    ax.legend(handles=_handles(plan), loc="best")
+    return figure
+
+
+def _draw(plan: Plan, views: Iterable[tuple[Axes, tuple[str, str]]]) -> None:
+    paths = [one.candidate.test.observations()[0].commands for one in plan.tests]
+    for ax, pair in views:
+        _travel(ax, plan, pair)
+        for number, path in enumerate(paths, start=1):
+            _path(ax, plan, path, pair, number)
+
+
+def _handles(plan: Plan) -> list[Line2D]:
     held = [(BLUE, "rotary axes held"), (ORANGE, "rotary axes turning")]
-    return held if plan.means.turnable else [(BLUE, "path of a test")]
+    named = held if plan.means.turnable else [(BLUE, "path of a test")]
+    box = Line2D([], [], color=GREY, linewidth=0.7, label="travel")
+    return [*(Line2D([], [], color=colour, label=label) for colour, label in named), box]
 
 
 def _travel(ax: Axes, plan: Plan, pair: tuple[str, str]) -> None:
@@ -48,18 +78,22 @@ def _travel(ax: Axes, plan: Plan, pair: tuple[str, str]) -> None:
 
 
 def _path(ax: Axes, plan: Plan, path: Array, pair: tuple[str, str], number: int) -> None:
+    """The path of a test, its number where it begins, on a ground that the lines do not cross."""
     machine = plan.means.machine
     across, up = (path[:, machine.index(axis)] for axis in pair)
     turning = any(np.ptp(path[:, machine.index(axis)]) > 0 for axis in plan.means.turnable)
     colour = ORANGE if turning else BLUE
-    ax.plot(across, up, color=colour, linewidth=0.9, marker="o" if np.ptp(across) + np.ptp(up) == 0 else "", markersize=3)
+    places = len(np.unique(np.round(path), axis=0))
+    apart = places <= _PLACES and plan.tests[number - 1].candidate.test.setup.pose_quantity != "angle"
+    ax.plot(across, up, color=colour, linewidth=0 if apart else 0.9, marker="o" if apart else "", markersize=3)
     ax.annotate(
         str(number),
-        ((across.min() + across.max()) / 2, (up.min() + up.max()) / 2),
+        (across[0], up[0]),
         ha="center",
         va="center",
         fontsize=SMALL,
-        color=INK,
+        color="white",
+        bbox={"boxstyle": "circle,pad=0.15", "facecolor": colour, "edgecolor": "white"},
     )
 
 
@@ -114,9 +148,10 @@ def growth_figure(plan: Plan) -> Figure:
     ax.plot(number, [100 * one.supported_so_far for one in plan.tests], "o", color=GREEN, markersize=3)
     ax.set_ylim(-3, 103)
     ax.set_ylabel("workspace supported (%)")
-    other.semilogy(number, [2e6 * one.worst_so_far for one in plan.tests], "o-", color=BLUE, markersize=3)
+    other.plot(number, [2e6 * one.worst_so_far for one in plan.tests], "o-", color=BLUE, markersize=3)
+    other.set_ylim(0, None)
     other.set_ylabel("greatest U, with the prior (nm/N)")
     for one in (ax, other):
         one.set_xlabel("tests made")
-        one.set_xticks(number)
+        one.xaxis.set_major_locator(MaxNLocator(integer=True))
     return figure

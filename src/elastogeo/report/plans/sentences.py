@@ -19,9 +19,10 @@ def workspace_supported(facts: Facts, passed: bool | None) -> str:
             f"The compliance at {tools} will be supported everywhere in the volume, with U = "
             f"{significant(2 * facts['worst'] * _NM)} nm/N at worst from the readings alone."
         )
+    more = facts["more"]
     needed = (
-        f"{facts['needed']} tests would support all of it."
-        if facts["needed"]
+        f"{more} more {'test supports' if more == 1 else 'tests support'} all of it."
+        if more
         else "All candidates together do not support all of it: let rotary axes move, add tools, or draw more candidates."
     )
     return f"The compliance at {tools} will be supported in {100 * facts['share']:.0f} % of the volume. {needed}"

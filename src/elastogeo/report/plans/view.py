@@ -179,7 +179,8 @@ def _workspace_table(plan: Plan) -> Table:
             "" if tool.median is None else significant(tool.median * unit.factor),
             "" if tool.worst is None else significant(tool.worst * unit.factor),
             significant(tool.worst_with_prior * unit.factor),
-            "more than there are" if tool.tests_needed is None else str(tool.tests_needed),
+            "none do" if tool.tests_needed is None else str(tool.tests_needed),
+            "none do" if tool.more_needed is None else str(tool.more_needed),
         )
         for tool in plan.tools
     )
@@ -191,12 +192,14 @@ def _workspace_table(plan: Plan) -> Table:
             f"worst u [{unit.name}]",
             f"worst with prior [{unit.name}]",
             "tests to support all",
+            "beside these",
         ),
         rows,
         words=(0,),
         title="Compliance at the tool over the volume",
         note="Standard uncertainties of the compliance along a direction, before the calibration of the force: that adds "
-        "its share of the compliance.",
+        "its share of the compliance. The last columns: how many tests support all of it at least, and how many it takes "
+        "beside the plan.",
     )
 
 

@@ -1,0 +1,73 @@
+"""The view of a plan: answer first, pictures that draw, a document of plain numbers."""
+
+import json
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import elastogeo as eg
+from elastogeo.planning import Means, Plan
+from elastogeo.report import sentence_of, view_of
+from elastogeo.report.drawing.style import house_style
+
+HERMLE = eg.read_machine("hermle_c50")
+
+
+@pytest.fixture(scope="module")
+def planned() -> Plan:
+    return eg.plan(Means(HERMLE, readings=12), tests=4, count=25)
+
+
+def test_the_answer_comes_first(planned: Plan) -> None:
+    view = view_of(planned)
+    assert re.match(
+        r"4 tests in \d+ min determine \d+ of at most 56 combinations of 180 compliances, \d+ of them", view.sentence
+    )
+    assert len(view.values) in (4, 5)
+    assert [row[0] for row in view.tables[0].rows] == ["1", "2", "3", "4"]
+    assert "nan" not in str(planned).lower()
+    assert len(repr(planned)) < 500
+    assert len(str(planned).splitlines()) < 40
+
+
+def test_every_picture_draws(planned: Plan) -> None:
+    pictures = view_of(planned).pictures
+    assert list(pictures) == ["volume", "growth", "knowledge"]
+    with house_style():
+        drawn = {name: picture.draw() for name, picture in pictures.items()}
+    volume = drawn["volume"]
+    marks = [text.get_text() for text in volume.axes[0].texts]
+    assert marks == ["1", "2", "3", "4"]
+    titles = [ax.get_title() for ax in drawn["knowledge"].axes]
+    assert titles == ["joint X", "joint Y", "joint Z", "joint A", "joint C"]
+
+
+def test_the_document_has_plain_numbers_and_the_same_ones(planned: Plan) -> None:
+    found = json.loads(planned.to_json())
+    assert found["schema"] == "elastogeo.plan/1"
+    assert found["rank"] == planned.rank
+    assert len(found["tests"]) == 4
+    assert found["tests"][0]["commands"]["X"][0] <= found["tests"][0]["commands"]["X"][1]
+    assert len(found["parameters"]) == 180
+    assert {p["known"] for p in found["parameters"]} <= {"alone", "sum", "unseen"}
+    assert [p["name"] for p in found["parameters"] if p["standard_uncertainty"] is None] == [
+        p.name for p in planned.parameters if p.known == "unseen"
+    ]
+
+
+def test_the_worst_uncertainty_is_shown_with_its_unit(planned: Plan) -> None:
+    """A plan that supports all says U of 95 %, twice the standard uncertainty, in nm/N."""
+    tool = replace(planned.tools[0], share=1.0, median=1e-6, worst=1.25e-6)
+    sure = replace(planned, tools=(tool,), supported=1.0)
+    values = {value.name: value for value in view_of(sure).values}
+    assert (values["U"].value, values["U"].unit) == ("2.50", "nm/N")
+    assert values["supported"].value == "100"
+
+
+def test_checks_say_what_to_do(planned: Plan) -> None:
+    said = {check.name: sentence_of(check) for check in planned.verdict}
+    assert "will be supported in 0 % of the volume" in said["workspace supported"]
+    assert re.search(r"\d+ more tests? supports? all of it|draw more candidates", said["workspace supported"])
+    assert np.isfinite(planned.tools[0].worst_with_prior)
