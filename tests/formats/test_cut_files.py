@@ -105,6 +105,16 @@ def test_a_path_is_axis_commands_or_tool_points(tmp_path: Path) -> None:
     assert not path.timed
 
 
+def test_a_path_is_a_program(tmp_path: Path) -> None:
+    """A slot of 20 mm, a quarter of a circle after a rapid move; the table of words above is no program."""
+    text = "%\nO0001 (SLOT)\nG21 G90 G17\nG0 X0 Y0 Z0\nG1 X20 F600\nG0 X50\nG3 X40 Y10 I-10 J0 F300\nM30\n%\n"
+    path = eg.read_path(written(tmp_path, text, "slot.nc"), eg.read_machine("hermle_c50"), zero={"Z": -50.0}, step=2.0)
+    assert np.ptp(path.commands[:, 4]) == 0
+    assert path.commands[0, 4] == -50
+    assert len(set(path.block.tolist())) == 2
+    assert path.speed[[0, -1]] == pytest.approx([10.0, 5.0])
+
+
 def test_a_table_that_is_no_path_is_refused(tmp_path: Path) -> None:
     machine = eg.read_machine("hermle_c50")
     for text, why in (

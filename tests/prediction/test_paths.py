@@ -164,6 +164,24 @@ def test_what_is_shown_is_the_result(result: Identification) -> None:
     assert all(check["sentence"] for check in document["verdict"])
 
 
+def test_a_probed_workpiece_takes_off_a_rigid_motion_and_no_load(result: Identification) -> None:
+    """The exact cut less the turn and shift that fit the exact unloaded machine best, by singular values."""
+    path = pocket(result.campaign.machine)
+    found = path_deviation(result, path, CUT, datum="probed")
+    off = simulated_points(TRUTH, path) - path.points
+    before = path.points - path.points.mean(axis=0)
+    left, _, right = np.linalg.svd(before.T @ (before + off - off.mean(axis=0)))
+    rigid = before @ (left @ right) - before + off.mean(axis=0)
+    real = simulated_points(TRUTH, path, CUT) - path.points - rigid
+    assert found.value[:, :2] == pytest.approx(real[:, :2], abs=1e-4)
+    assert found.parts["geometry"].value[:, :2].mean(axis=0) == pytest.approx([0.0, 0.0], abs=1e-9)
+    absolute = path_deviation(result, path, CUT)
+    assert np.abs(absolute.value[:, :2] - found.value[:, :2]).max() > 2e-3
+    assert absolute.parts["compliance"].value[:, :2] == pytest.approx(found.parts["compliance"].value[:, :2])
+    with pytest.raises(InputError, match="the workpiece sits as 'table' says; write machine or probed"):
+        path_deviation(result, path, datum="table")  # type: ignore[arg-type]
+
+
 def test_a_dense_path_is_predicted_as_each_of_its_points(result: Identification) -> None:
     """Where many points are found of a few, and degrees of freedom between knots, they are those of each point by itself."""
     machine = result.campaign.machine

@@ -15,29 +15,51 @@ from typing import Literal
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.formats.run_files import read_run
+from elastogeo.formats.program_files import flavours, read_program_bytes
+from elastogeo.formats.run_files import opened_run, read_run, read_run_bytes, run_formats
+from elastogeo.formats.text.by_content import claiming
 from elastogeo.formats.text.table import Table
-from elastogeo.machine import Array, Directions, Machine, MeasuredForce, ToolPath, path_of_commands, path_of_points
+from elastogeo.machine import (
+    Array,
+    Directions,
+    Machine,
+    MeasuredForce,
+    ToolPath,
+    path_of_commands,
+    path_of_points,
+    path_of_program,
+)
 
 _COMMANDS = ("command_", "position_")
 _FORCES = ("force_x", "force_y", "force_z")
 _KNOWN = (*"xyzabc", "feed", "block", "cutting", "way", "time", *_FORCES)
 
 
+STEP = 1.0
+"""Distance [mm] of two points along a block of a program, unless another is asked for."""
+
+
 def read_path(
-    file: str | Path, machine: Machine, zero: Mapping[str, float] | None = None, feed: float | None = None
+    file: str | Path,
+    machine: Machine,
+    zero: Mapping[str, float] | None = None,
+    feed: float | None = None,
+    step: float = STEP,
 ) -> ToolPath:
-    """Read a tool path.
+    """Read a tool path: an NC program, or a table, told from the content.
 
     Parameters
     ----------
     file : str or Path
-        A table of axis commands or of tool points, in any format of run files.
+        A program in any known language of controls; a table of axis commands or of tool points in any format of run files.
     machine : Machine
     zero : mapping of str to float [mm, rad], optional
-        Of tool points, the axis commands at the zero of the workpiece; of axis commands, where axes without a column stay.
+        Of a program, its zero offset (G54); of tool points, the axis commands at the zero of the workpiece; of axis
+        commands, where axes without a column stay.
     feed : float [mm/s], optional
-        Where the table says none.
+        Where a table says none.
+    step : float [mm]
+        Greatest distance of two points along a block of a program.
 
     Raises
     ------
@@ -46,7 +68,10 @@ def read_path(
     InputError
         If it holds no path, or the machine cannot make it.
     """
-    return path_of_table(read_run(file), machine, zero, feed)
+    data, number = opened_run(file)
+    if number is None and claiming(flavours(), data) and not claiming(run_formats(), data):
+        return path_of_program(read_program_bytes(data, str(file)), machine, step, zero)
+    return path_of_table(read_run_bytes(data, str(file), number), machine, zero, feed)
 
 
 def read_forces(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 import elastogeo as eg
-from elastogeo.cli.options import AsJson, Parameters, Report, TestPaths
+from elastogeo.cli.options import AsJson, Parameters, Reciprocal, Report, TestPaths
 from elastogeo.errors import InputError
 
 if TYPE_CHECKING:
@@ -30,7 +30,13 @@ def predict(
         str | None, typer.Option(help="Axis commands at the zero of the workpiece (G54) [mm, deg], as X=100,Y=-50,C=30.")
     ] = None,
     feed: Annotated[float | None, typer.Option(help="Feed [mm/min] where the path says none.")] = None,
+    step: Annotated[float, typer.Option(help="Distance of points along a program [mm].")] = 1.0,
     parameters: Parameters = None,
+    reciprocal: Reciprocal = False,
+    datum: Annotated[
+        Literal["machine", "probed"],
+        typer.Option(help="Where the workpiece sits: as the machine says, or as its own probe finds it along the path."),
+    ] = "machine",
     prior: Annotated[bool, typer.Option("--prior", help="Give what is not supported by the stated prior.")] = False,
     report: Report = None,
     as_json: AsJson = False,
@@ -43,18 +49,19 @@ def predict(
     \b
     Examples:
       elastogeo predict my-campaign --path contour.csv --force 0,-200,0 --along path
-      elastogeo predict my-campaign --path slot.csv --cut slot.toml --zero X=100,Y=-50
+      elastogeo predict my-campaign --path slot.nc --cut slot.toml --zero X=100,Y=-50
     """
     from elastogeo.cli import screen
 
-    with screen.progress("reading the runs", quiet=as_json) as step_done:
+    with screen.progress("reading the runs", quiet=as_json) as now:
         asked = eg.read_campaign(tests)
-        step_done("identifying")
-        result = eg.identify(asked, parameters=parameters)
-        step_done("predicting along the path")
-        made = eg.read_path(path, result.campaign.machine, zero=_zero(zero), feed=None if feed is None else feed / 60)
+        now("identifying")
+        result = eg.identify(asked, parameters=parameters, reciprocal=reciprocal)
+        now("predicting along the path")
+        per_second = None if feed is None else feed / 60
+        made = eg.read_path(path, result.campaign.machine, zero=_zero(zero), feed=per_second, step=step)
         loads = None if cut is None else eg.read_cut(cut)
-        found = eg.predict(result, made, loads, force=_force(force, along), along=along, prior=prior)
+        found = eg.predict(result, made, loads, force=_force(force, along), along=along, prior=prior, datum=datum)
     screen.show(found, report, as_json)
 
 

@@ -5,7 +5,7 @@ Stands on the files of `prediction` and the rooms below it.
 
 from elastogeo.prediction.paths.ask import predict
 from elastogeo.prediction.paths.deviation import DEVIATION_COMPONENTS, PARTS, Piece, PieceDeviation, deviations
-from elastogeo.prediction.paths.predict import TOOL, path_deviation
+from elastogeo.prediction.paths.predict import TOOL, known_deviation, path_deviation
 from elastogeo.prediction.paths.result import PartOfDeviation, PathPrediction
 from elastogeo.prediction.paths.simulation import simulated_points
 
@@ -18,6 +18,7 @@ __all__ = [
     "Piece",
     "PieceDeviation",
     "deviations",
+    "known_deviation",
     "path_deviation",
     "predict",
     "simulated_points",

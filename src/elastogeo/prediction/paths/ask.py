@@ -21,6 +21,7 @@ from elastogeo.machine import (
     path_of_program,
 )
 from elastogeo.observe import Askable
+from elastogeo.prediction.paths.datum import Datum
 from elastogeo.prediction.paths.predict import path_deviation
 from elastogeo.prediction.paths.result import PathPrediction
 
@@ -42,6 +43,7 @@ def predict(
     step: float = STEP,
     split: bool = True,
     prior: bool = False,
+    datum: Datum = "machine",
 ) -> PathPrediction:
     """Predict how far the tool will be off along a path, with the interval that the tests support.
 
@@ -67,6 +69,8 @@ def predict(
         Whether the deviation is split into its parts.
     prior : bool
         Whether what the tests do not support is given by the stated prior.
+    datum : {"machine", "probed"}
+        Whether the workpiece sits as the machine says, or as the machine's own probe finds it there, unloaded.
 
     Returns
     -------
@@ -86,7 +90,7 @@ def predict(
     whole = cut or Cut()
     if force is not None:
         whole = replace(whole, force=_force(force, along))
-    return path_deviation(result, path, whole, split, prior)
+    return path_deviation(result, path, whole, split, prior, datum)
 
 
 def _force(given: Sequence[float] | PathForce, along: Directions) -> PathForce:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
@@ -28,6 +29,13 @@ DEVIATION_COMPONENTS = ("x", "y", "z", "normal")
 GEOMETRY, COMPLIANCE, TOOL_SIDE, WORKPIECE_SIDE = "geometry", "compliance", "spindle side", "workpiece side"
 PARTS = (GEOMETRY, COMPLIANCE, TOOL_SIDE, WORKPIECE_SIDE)
 """Geometry and compliance are all of the machine; so are spindle side and workpiece side: two ways to split one sum."""
+
+
+class Moved(Protocol):
+    """A motion of the workpiece that follows from the parameters."""
+
+    def at(self, points: Array) -> Array:
+        """How far points move, shape (3, k, p), per unit of each parameter."""
 
 
 @dataclass(frozen=True)
@@ -102,9 +110,11 @@ class Piece:
         asked = virtual_observations(self.path.machine, commands, direction, np.tile(wrench, (3, 1)), self.path.tool)
         return replace(asked, velocity=velocity, acceleration=None, sense=sense, weight=self.cut.workpiece)
 
-    def functionals(self, knowledge: Knowledge) -> Array:
+    def functionals(self, knowledge: Knowledge, moved: Moved | None = None) -> Array:
         """What each of the four components asks of the parameters at every point, shape (4, k, p)."""
         rows = knowledge.rows(self.observations()).reshape(3, len(self), -1)
+        if moved is not None:
+            rows -= moved.at(self.path.points[self.part])
         normal = np.einsum("ki,ikp->kp", np.nan_to_num(self.normal), rows)
         return np.concatenate([rows, normal[np.newaxis]])
 
@@ -135,7 +145,12 @@ class PieceDeviation:
 
 
 def deviations(
-    knowledge: Knowledge, path: ToolPath, cut: Cut, prior: bool = False, points: int = PIECE
+    knowledge: Knowledge,
+    path: ToolPath,
+    cut: Cut,
+    prior: bool = False,
+    moved: Moved | None = None,
+    points: int = PIECE,
 ) -> Iterator[PieceDeviation]:
     """The deviation along a path, piece by piece.
 
@@ -147,19 +162,23 @@ def deviations(
     cut : Cut
     prior : bool
         Whether what the tests do not support is given by the stated prior.
+    moved : Moved, optional
+        By which motion the workpiece was set right.
     points : int
         In a piece.
     """
     for part in path.slices(points):
         piece = Piece(path, cut, part)
-        asked = piece.functionals(knowledge)
+        asked = piece.functionals(knowledge, moved)
         found = predicted_along(knowledge, asked, prior)
         yield PieceDeviation(part, piece.wrench, found, np.asarray(asked.any(axis=2)), piece.tool_deflection())
 
 
-def parts_of(knowledge: Knowledge, path: ToolPath, cut: Cut, points: Rows, prior: bool = False) -> dict[str, Predicted]:
+def parts_of(
+    knowledge: Knowledge, path: ToolPath, cut: Cut, points: Rows, prior: bool = False, moved: Moved | None = None
+) -> dict[str, Predicted]:
     """Each of `PARTS` at some points of a path, k of them, of one piece: 4 k values, as in `PieceDeviation`."""
-    asked = Piece(path, cut, points).functionals(knowledge)
+    asked = Piece(path, cut, points).functionals(knowledge, moved)
     return {name: predicted_along(knowledge, asked * members, prior) for name, members in part_members(knowledge).items()}
 
 

@@ -13,6 +13,7 @@ from elastogeo.identification import Identification
 from elastogeo.machine import Array, Cut, ToolPath
 from elastogeo.prediction.knowledge import Knowledge, knowledge_of
 from elastogeo.prediction.paths.along import Rows, predicted_along
+from elastogeo.prediction.paths.datum import Datum, check_datum, probed_motion
 from elastogeo.prediction.paths.deviation import (
     COMPLIANCE,
     DEVIATION_COMPONENTS,
@@ -33,7 +34,12 @@ SPLIT_POINTS = 2000
 
 
 def path_deviation(
-    result: Identification, path: ToolPath, cut: Cut | None = None, split: bool = True, prior: bool = False
+    result: Identification,
+    path: ToolPath,
+    cut: Cut | None = None,
+    split: bool = True,
+    prior: bool = False,
+    datum: Datum = "machine",
 ) -> PathPrediction:
     """Predict how far the tool is off along a path.
 
@@ -48,6 +54,8 @@ def path_deviation(
         Whether the deviation is split into its parts.
     prior : bool
         Whether what the tests do not support is given by the stated prior, and its share said.
+    datum : {"machine", "probed"}
+        Whether the workpiece sits as the machine says, or as its own probe finds it there: see `datum`.
 
     Raises
     ------
@@ -61,15 +69,19 @@ def path_deviation(
             f"the path is of machine {path.machine.name!r}, the tests are of {knowledge.machine.name!r}; make the path with "
             f"the machine of the tests"
         )
-    found = _gathered(knowledge, path, cut, prior)
+    found = known_deviation(knowledge, path, cut, prior, datum)
     if split:
         found = _split(found, knowledge, cut, prior)
     named = replace(found, name=result.campaign.name, simulated=knowledge.simulated)
     return replace(named, verdict=verdict_of(named, knowledge, cut, tested_of(result)))
 
 
-def _gathered(knowledge: Knowledge, path: ToolPath, cut: Cut, prior: bool) -> PathPrediction:
-    """The pieces of a path as one result, without its parts and its verdict."""
+def known_deviation(
+    knowledge: Knowledge, path: ToolPath, cut: Cut, prior: bool = False, datum: Datum = "machine"
+) -> PathPrediction:
+    """How far the tool is off along a path, by what is known of the machine: without parts, verdict and names of tests."""
+    check_datum(datum)
+    moved = probed_motion(knowledge, path, cut) if datum == "probed" else None
     m, width = len(path), len(DEVIATION_COMPONENTS)
     numbers: dict[str, Any] = {
         name: np.full((m, width), np.nan)
@@ -78,7 +90,7 @@ def _gathered(knowledge: Knowledge, path: ToolPath, cut: Cut, prior: bool) -> Pa
     supported: Any = np.zeros((m, width), dtype=bool)
     wrench = np.empty((m, 6))
     needs_load = cut.force is not None and cut.force.relative_uncertainty > 0
-    for piece in deviations(knowledge, path, cut, prior):
+    for piece in deviations(knowledge, path, cut, prior, moved):
         at = piece.part
         loaded = _by_load(knowledge, path, cut, piece) if needs_load else None
         u, degrees = _combined(piece, cut, loaded)
@@ -98,6 +110,7 @@ def _gathered(knowledge: Knowledge, path: ToolPath, cut: Cut, prior: bool) -> Pa
         force="" if cut.force is None else cut.force.said,
         tool="" if cut.tool is None else cut.tool.source,
         normal_to=cut.normal_to,
+        datum=datum,
         wrench=wrench,
         supported=supported,
         parts={},
@@ -110,9 +123,10 @@ def _gathered(knowledge: Knowledge, path: ToolPath, cut: Cut, prior: bool) -> Pa
 def _split(found: PathPrediction, knowledge: Knowledge, cut: Cut, prior: bool) -> PathPrediction:
     """With its parts: at all points of a short path, at some of a long one and where it is off most."""
     at = _shown(found)
+    moved = probed_motion(knowledge, found.path, cut) if found.datum == "probed" else None
     asked = found.asked[at]
     parts = {}
-    for name, part in parts_of(knowledge, found.path, cut, at, prior).items():
+    for name, part in parts_of(knowledge, found.path, cut, at, prior, moved).items():
         value, wide = _shaped(part.value), _shaped(part.expanded)
         parts[name] = PartOfDeviation(np.where(asked, value, np.nan), np.where(asked, wide, np.nan))
     if cut.tool is not None:

@@ -52,6 +52,8 @@ class PathPrediction(Result):
         Which tool and holder give way, in words; empty if they count as rigid.
     normal_to : str
         `left` or `right` of the travel: where along the normal counts as positive.
+    datum : str
+        `machine`: the workpiece sits as the machine says; `probed`: as the machine's probe finds it along the path.
     wrench : array, shape (m, 6) [N, N mm]
         On the tool, along the axes of the workpiece.
     value : array, shape (m, 4) [mm]
@@ -78,6 +80,7 @@ class PathPrediction(Result):
     force: str
     tool: str
     normal_to: str
+    datum: str
     wrench: Array
     value: Array
     standard_uncertainty: Array

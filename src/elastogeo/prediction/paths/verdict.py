@@ -53,7 +53,7 @@ def tested_of(result: Identification) -> Tested:
 def verdict_of(found: PathPrediction, knowledge: Knowledge, cut: Cut, tested: Tested) -> tuple[Check, ...]:
     """The checks of a prediction along a path."""
     checks = (
-        _supported(found),
+        _supported(found, knowledge),
         _intervals(found),
         _asked_for(knowledge, found, cut),
         _within(found, tested),
@@ -63,7 +63,9 @@ def verdict_of(found: PathPrediction, knowledge: Knowledge, cut: Cut, tested: Te
     return tuple(check for check in checks if check is not None)
 
 
-def _supported(found: PathPrediction) -> Check:
+def _supported(found: PathPrediction, knowledge: Knowledge) -> Check:
+    mirrors = [getattr(source, "mirror", None) for source in knowledge.sources if source.elastic]
+    reciprocal = not mirrors or any(mirror is not None for mirror in mirrors)
     asked = found.asked
     points: Flags = np.asarray((found.supported | ~asked)[:, :3].all(axis=1) & asked[:, :3].any(axis=1))
     missing = np.flatnonzero(~points)
@@ -73,6 +75,8 @@ def _supported(found: PathPrediction) -> Check:
         "first": int(missing[0]) + 1 if len(missing) else None,
         "unsupported": float(np.nanmax(found.unsupported[:, :3], initial=0.0)),
         "prior": bool(np.isfinite(found.value[missing, :3]).any()),
+        "datum": found.datum,
+        "reciprocal": reciprocal,
         "not_asked": [axis for k, axis in enumerate("xyz") if not asked[:, k].any()],
     }
     return Check(PATH_SUPPORTED, not len(missing), facts, decisive=True)

@@ -6,6 +6,7 @@ machine : name; topology
 path : {name, points, blocks, length_mm}
 force, tool : in words; empty without
 normal_to : side of the travel to which the normal counts as positive
+datum : machine, or probed: less the rigid motion of the workpiece that the unloaded machine's own probe would find
 extremes : by component (x, y, z of the workpiece, normal) the least and greatest deviation:
     {value_um, interval95_um, point, way_mm}
 points : of at most 2000 points, evenly chosen, with the extremes: [{point, block, way_mm, x_mm, y_mm, z_mm, force_N,
@@ -48,6 +49,7 @@ def path_json(found: PathPrediction) -> dict[str, Any]:
             "force": found.force,
             "tool": found.tool,
             "normal_to": found.normal_to,
+            "datum": found.datum,
             "extremes": _extremes(found),
             "points": point_entries(found),
             "parts": _part_entries(found),

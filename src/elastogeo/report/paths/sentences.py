@@ -19,9 +19,19 @@ def path_supported(facts: Facts, _: bool | None) -> str:
     prior = "the values there rest on the stated prior" if facts["prior"] else "nothing is stated there"
     return (
         f"The tests determine the deviation at {share} of {facts['points']} points; at point {facts['first']} and others up "
-        f"to {significant(100 * facts['unsupported'], 2)} % of what is asked no test sees: {prior}. Add tests at such poses "
-        f"(`elastogeo plan`).{beside}"
+        f"to {significant(100 * facts['unsupported'], 2)} % of what is asked no test sees: {prior}. {_remedy(facts)}{beside}"
     )
+
+
+def _remedy(facts: Facts) -> str:
+    """What makes more of the same tests, before others are made."""
+    ways = []
+    if not facts["reciprocal"]:
+        ways.append("take the joints as reciprocal (across a force a bar sees only the sum of both ways)")
+    if facts["datum"] == "machine":
+        ways.append("take the workpiece as probed on the machine (its place and alignment then do not matter)")
+    first = f"First {', or '.join(ways)}; then add" if ways else "Add"
+    return f"{first} tests at such poses (`elastogeo plan`)."
 
 
 @says("intervals shown")

@@ -32,6 +32,9 @@ _SPLIT = (
 )
 
 
+_DATUM = {"machine": "where the machine says", "probed": "where the machine's own probe finds it along the path, unloaded"}
+
+
 @views(PathPrediction)
 def path_view(found: PathPrediction) -> View:
     """All that is shown of a prediction along a path."""
@@ -95,6 +98,7 @@ def _head(found: PathPrediction) -> tuple[tuple[str, str], ...]:
         ("Force on the tool", found.force or "none"),
         ("Tool and holder", found.tool or "count as rigid"),
         ("Normal", f"positive to the {found.normal_to} of the travel"),
+        ("Workpiece sits", _DATUM[found.datum]),
     )
 
 
