@@ -44,6 +44,10 @@ _ALONE = 1e-6
 _FLOOR = 1e-9
 """Share of the pooled variance that is added in every direction, so that no covariance is zero."""
 
+_SHAPES = 0.5
+"""Share of the directions in which runs scatter, as far as no other run of the test shows in which: noise that is one of a
+run has an offset and a few orders, and is the same everywhere only if readings are independent."""
+
 _ROUNDING = 1e-12
 """Share of the readings that is their rounding error at most: less scatter than that is none."""
 
@@ -344,20 +348,21 @@ def _compared(parts: Sequence[_Seen], scatter: Sequence[_Scatter]) -> _Compared:
     pooled = max(sum(one.square for one in scatter) / freedom, least)
     values, vectors = np.linalg.eigh(moved.T @ moved)
     white = vectors / np.sqrt(np.maximum(values, 0.0) + pooled)
-    by_run, degrees = _covariance(weights @ white, scatter, pooled)
+    by_run, degrees, unjudged = _covariance(weights @ white, scatter, pooled)
     covariance = by_run + (moved @ white).T @ (moved @ white)
     total = float(np.trace(covariance))
     statistic = float(np.sum((apart @ white) ** 2)) / total
-    directions = total**2 / float(np.sum(covariance**2))
-    degrees = min(degrees * (total / float(np.trace(by_run))) ** 2, _KNOWN)
+    shapes = 1.0 - (1.0 - _SHAPES) * unjudged
+    directions = max(1.0, shapes * total**2 / float(np.sum(covariance**2)))
+    degrees = min(shapes * degrees * (total / float(np.trace(by_run))) ** 2, _KNOWN)
     return _Compared(q, square, statistic, directions, degrees, float(fdtrc(directions, degrees, statistic)))
 
 
-def _covariance(weights: Array, scatter: Sequence[_Scatter], pooled: float) -> tuple[Array, float]:
-    """Covariance of differences with these weights, shape (n, q), by run; and the degrees of freedom of its trace.
+def _covariance(weights: Array, scatter: Sequence[_Scatter], pooled: float) -> tuple[Array, float, float]:
+    """Covariance of differences with these weights, shape (n, q), by run; the degrees of freedom of its trace; how unjudged.
 
     A direction in which no other run of its test judges a run has the pooled variance, or that of what is judged if this is
-    greater: runs may scatter more in just the traces that count here.
+    greater: runs may scatter more in just the traces that count here. The share of such directions is how unjudged it is.
     """
     size = weights.shape[1]
     covariance, unjudged, trace, square = np.zeros((size, size)), weights.T @ weights, 0.0, 0.0
@@ -372,7 +377,8 @@ def _covariance(weights: Array, scatter: Sequence[_Scatter], pooled: float) -> t
     left, freedom = max(float(np.trace(unjudged)), 0.0), sum(one.freedom for one in scatter)
     degrees = (trace + left) ** 2 / (square + left**2 / freedom)
     more = max(1.0, float(np.trace(covariance)) / (pooled * trace)) if trace > 0 else 1.0
-    return covariance + more * pooled * unjudged + _FLOOR * pooled * np.eye(size), degrees
+    share = left / float(np.sum(weights**2))
+    return covariance + more * pooled * unjudged + _FLOOR * pooled * np.eye(size), degrees, share
 
 
 def _looks(tests: _Tests) -> _Looks:
