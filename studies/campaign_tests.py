@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 
 from elastogeo.estimate import solve
-from elastogeo.identification import TestsAgreement, confounding_of, effects_of, merged, systems_of
+from elastogeo.identification import TestsAgreement, confounding_of, effects_of, merged, moments_of, systems_of
 from elastogeo.identification.campaigns.agreement import tests_agreement
 from elastogeo.observe import LoadedBallBar, MachineTest, campaign_of
 from studies.ball_bar import Circles
@@ -100,7 +100,7 @@ def agreement_of(tests: dict[str, MachineTest]) -> TestsAgreement:
     asked = campaign_of(tests)
     systems = systems_of(asked)
     found = confounding_of(asked, systems)
-    systems = systems.holding(found.retained)
-    agreement = tests_agreement(systems, solve(merged(systems.runs), found.retained), effects_of(asked, systems))
+    solution = solve(merged(systems.runs), found.retained)
+    agreement = tests_agreement(systems, solution, moments_of(systems, solution, effects_of(asked, systems)))
     assert agreement is not None
     return agreement

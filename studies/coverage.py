@@ -21,7 +21,7 @@ from zlib import crc32
 import numpy as np
 
 from elastogeo.errors import DegreesOfFreedomError
-from elastogeo.estimate import factor_blocks, solve_by_run
+from elastogeo.estimate import solve_by_run
 from elastogeo.identification import confounding_of, effects_of, systems_of, uncertainty_budget
 from elastogeo.observe import KnownInfluence, MachineTest, Question
 from studies.bar_tests import LAYOUTS, Layout, make_test
@@ -131,13 +131,8 @@ def covered(name: str, noise: str, trials: range) -> Coverage:
     held, freedom = np.zeros(found.rank, dtype=int), np.zeros(1)
     for trial in trials:
         one, truth = drawn(name, noise, trial)
-        runs = []
-        for system, observed in zip(systems.runs, one.observations(), strict=True):
-            rows = system.rows.copy(order="F")
-            rows[:, -1] = system.without_own(observed.reading[:, np.newaxis])[:, 0]
-            factor = replace(factor_blocks(system.factor.labels, [rows.copy(order="F")]), rows=system.factor.rows)
-            runs.append(replace(system, rows=rows, factor=factor))
-        seen = replace(systems, runs=tuple(runs))
+        pairs = zip(systems.runs, one.observations(), strict=True)
+        seen = replace(systems, runs=tuple(system.read_again(observed) for system, observed in pairs))
         solution = solve_by_run([run.factor for run in seen.runs], found.retained)
         budget = uncertainty_budget(seen, solution, effects_of(one, seen))
         true = dict(truth.parameters)

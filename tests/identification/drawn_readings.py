@@ -22,7 +22,9 @@ def with_readings(systems: Systems, readings: Array) -> Systems:
     for run, reading in zip(systems.runs, readings, strict=True):
         rows = run.rows.copy(order="F")
         rows[:, -1] = reading
-        runs.append(replace(run, rows=rows, factor=factor_blocks(run.factor.labels, [rows.copy(order="F")])))
+        runs.append(
+            replace(run, held=replace(run.held, rows=rows), factor=factor_blocks(run.factor.labels, [rows.copy(order="F")]))
+        )
     return replace(systems, runs=tuple(runs))
 
 

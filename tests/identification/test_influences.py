@@ -18,6 +18,7 @@ from elastogeo.identification import (
     effects_of,
     identify,
     merged,
+    moments_of,
     systems_of,
     uncertainty_budget,
     with_question,
@@ -214,7 +215,7 @@ def test_draws_need_no_more_runs_than_the_uncertainty_by_run_does(make_test: Mak
     solution = solve_by_run([run.factor for run in systems.runs], confounding_of(noisy, systems).retained)
     assert np.linalg.matrix_rank(solution.covariance / np.outer(*[solution.standard_uncertainty] * 2), tol=1e-9) == 11
     effects = effects_of(replace(noisy, influences=(influence("bar-length"),)), systems)
-    found = agreement(systems, solution, effects, uncertainty_budget(systems, solution, effects))
+    found = agreement(solution, moments_of(systems, solution, effects), uncertainty_budget(systems, solution, effects))
     half = np.ptp(found.interval, axis=1) / 2
     scatter = np.ptp(solution.interval(), axis=1) / 2
     assert np.all(half > 0.95 * scatter)
@@ -232,7 +233,7 @@ def test_draws_agree_with_first_order_where_all_is_linear_and_normal(kind: str, 
     solution = certain(solve(merged(systems.runs), list(TRUTH)))
     effects = effects_of(stated, systems)
     budget = uncertainty_budget(systems, solution, effects)
-    found = agreement(systems, solution, effects, budget)
+    found = agreement(solution, moments_of(systems, solution, effects), budget)
     assert found.agrees.all()
     trials = found.draws.trials
     assert_allclose(found.draws.standard_uncertainty / budget.standard_uncertainty, 1.0, atol=5 / np.sqrt(2 * trials))
@@ -247,7 +248,7 @@ def test_draws_agree_with_first_order_for_small_errors_of_the_force(test: Machin
     solution = certain(solve(merged(systems.runs), list(TRUTH)))
     effects = effects_of(stated, systems)
     budget = uncertainty_budget(systems, solution, effects)
-    assert agreement(systems, solution, effects, budget).agrees.all()
+    assert agreement(solution, moments_of(systems, solution, effects), budget).agrees.all()
 
 
 def test_draws_do_not_agree_where_one_rectangular_influence_rules(test: MachineTest) -> None:
@@ -257,7 +258,7 @@ def test_draws_do_not_agree_where_one_rectangular_influence_rules(test: MachineT
     solution = certain(solve(merged(systems.runs), list(TRUTH)))
     effects = effects_of(stated, systems)
     budget = uncertainty_budget(systems, solution, effects)
-    found = agreement(systems, solution, effects, budget)
+    found = agreement(solution, moments_of(systems, solution, effects), budget)
     gain = solution.labels.index("E_XX1")
     assert not found.agrees[gain]
     half = np.array([np.ptp(budget.interval[gain]), np.ptp(found.draws.interval[gain])]) / 2
@@ -272,7 +273,7 @@ def test_a_large_error_of_the_force_is_drawn_without_linearising(test: MachineTe
     solution = certain(solve(merged(systems.runs), list(TRUTH)))
     effects = effects_of(stated, systems)
     budget = uncertainty_budget(systems, solution, effects)
-    found = agreement(systems, solution, effects, budget)
+    found = agreement(solution, moments_of(systems, solution, effects), budget)
     k = solution.labels.index("C_YYY")
     value = solution.values[k]
     assert not found.agrees[k]
@@ -404,7 +405,7 @@ def test_agreement_without_influences_is_refused(test: MachineTest) -> None:
     systems = systems_of(test)
     solution = solve(merged(systems.runs), list(TRUTH))
     with pytest.raises(UnsupportedError, match="the test states no systematic influence"):
-        agreement(systems, solution, (), uncertainty_budget(systems, solution, ()))
+        agreement(solution, moments_of(systems, solution, ()), uncertainty_budget(systems, solution, ()))
 
 
 def test_an_offset_of_the_force_at_no_force_is_refused(make_test: MakeTest) -> None:

@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from elastogeo.identification import effects_of, identify, systems_of
-from elastogeo.identification.rounding import ROUNDING, found_step, rounding_effects
+from elastogeo.identification.readings.rounding import ROUNDING, found_step, rounding_effects
 from studies import coverage
 from studies.bar_tests import make_test
 from studies.noise import NOISES, Noise
@@ -23,7 +23,9 @@ def sizes(layout: str, noise: Noise, resolution: float | None = None, readings: 
     effects = list(rounding_effects(systems, resolution))
     if not effects:
         return []
-    variance = sum(e.influence.standard_uncertainty**2 * np.array([np.mean(s**2) for s in e.shift]) for e in effects)
+    variance = sum(
+        e.influence.standard_uncertainty**2 * np.array([np.mean(e.shift(run) ** 2) for run in systems.runs]) for e in effects
+    )
     return [float(size) for size in np.sqrt(variance)]
 
 

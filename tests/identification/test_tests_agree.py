@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from elastogeo.estimate import solve
-from elastogeo.identification import Identification, confounding_of, identify, merged, systems_of
+from elastogeo.identification import Identification, confounding_of, identify, merged, moments_of, systems_of
 from elastogeo.identification.campaigns import agreement
 from elastogeo.identification.question import effects_of
 from elastogeo.observe import KnownInfluence, MachineTest, Question, campaign_of
@@ -114,7 +114,9 @@ def with_gauges(tests: dict[str, MachineTest], serials: dict[str, str], relative
     }
     systems = systems_of(asked)
     solution = solve(merged(systems.runs), confounding_of(asked, systems).retained)
-    found = agreement.tests_agreement(systems, solution, effects_of(campaign_of(asked), systems))
+    found = agreement.tests_agreement(
+        systems, solution, moments_of(systems, solution, effects_of(campaign_of(asked), systems))
+    )
     assert found is not None
     return found
 

@@ -25,7 +25,7 @@ from elastogeo.identification.feed_drives.axis_drives import identify_drives
 from elastogeo.identification.feed_drives.result import AxisDrive, DriveIdentification
 from elastogeo.identification.fit import Fit, Harmonic, fitness, rmse, strongest_harmonic
 from elastogeo.identification.identification import consistency_of, identify
-from elastogeo.identification.influences import Effect, effect, effects
+from elastogeo.identification.influences import Effect, effect
 from elastogeo.identification.levels import ForceLevels, ForceSpread, force_levels
 from elastogeo.identification.local import adjacent, local_estimates
 from elastogeo.identification.model_choice.candidates import COMPLIANCE, FORCE, GEOMETRY, SET_UP
@@ -33,6 +33,7 @@ from elastogeo.identification.model_choice.choice import compare_models
 from elastogeo.identification.model_choice.following import OffLevel
 from elastogeo.identification.model_choice.result import Candidate, ModelChoice
 from elastogeo.identification.model_choice.variable_compliance import VariableCompliance, gain_of
+from elastogeo.identification.moments import Moments, moments_of
 from elastogeo.identification.nests.deviations import BallDeviations, ball_deviations, shows_deviations
 from elastogeo.identification.physics import PHYSICALLY_CONSISTENT, Consistency, consistency
 from elastogeo.identification.positioning import (
@@ -54,6 +55,7 @@ from elastogeo.identification.question import (
     what_reciprocity_buys,
     with_question,
 )
+from elastogeo.identification.readings.shared_structure import shared_harmonic
 from elastogeo.identification.reciprocity import Reciprocity, is_compliance, reciprocal_sources, reciprocity
 from elastogeo.identification.result import Identification, Level, Local, Parameter, Pattern, Response, Trace
 from elastogeo.identification.rollers.dynamometer import AgainstDynamometer, ComparedForce
@@ -63,7 +65,7 @@ from elastogeo.identification.rollers.rig_test import RigTest
 from elastogeo.identification.rollers.stiffness import Stiffness
 from elastogeo.identification.rollers.stiffness_map import map_stiffness
 from elastogeo.identification.rollers.torque_parts import TorqueParts
-from elastogeo.identification.shared_structure import shared_harmonic
+from elastogeo.identification.run_system import RunSystem
 from elastogeo.identification.static_tests.assessment import evaluate_static
 from elastogeo.identification.static_tests.cartesian import (
     CartesianCompliance,
@@ -92,7 +94,7 @@ from elastogeo.identification.static_tests.result import (
     TwistRun,
 )
 from elastogeo.identification.static_tests.straight_line import StaticLine, static_line
-from elastogeo.identification.systems import RunSystem, Systems, merged, noise_of, run_systems
+from elastogeo.identification.systems import Systems, merged, noise_of, run_systems
 from elastogeo.identification.verdict import CONDITION_LIMIT
 
 __all__ = [
@@ -148,6 +150,7 @@ __all__ = [
     "LoadedRun",
     "Local",
     "ModelChoice",
+    "Moments",
     "OffLevel",
     "OnAxis",
     "OnAxisPart",
@@ -201,7 +204,6 @@ __all__ = [
     "diagnose",
     "difference",
     "effect",
-    "effects",
     "effects_of",
     "evaluate_positioning",
     "evaluate_static",
@@ -217,6 +219,7 @@ __all__ = [
     "local_estimates",
     "map_stiffness",
     "merged",
+    "moments_of",
     "moving_axes",
     "noise_of",
     "plain",

@@ -27,9 +27,9 @@ from elastogeo.estimate import (
     coverage_factor,
     effective_degrees_of_freedom,
     monte_carlo,
-    select,
 )
 from elastogeo.identification.influences import Effect
+from elastogeo.identification.moments import Moments, moments_of
 from elastogeo.identification.systems import Systems
 from elastogeo.machine import Array
 
@@ -37,6 +37,9 @@ SCATTER = "scatter of the readings"
 
 MOST_TRIALS = 300_000
 """After which draws that have not settled will not."""
+
+_AT_ONCE = 500
+"""Draws that are solved at once: each has a matrix of its own."""
 
 COVERAGE = 0.95
 TAIL = 0.0125
@@ -139,10 +142,14 @@ def uncertainty_budget(systems: Systems, solution: Solution, effects: Sequence[E
         With the covariance of the scatter.
     effects : sequence of Effect
     """
-    moments = _moments(systems, solution)
-    sizes = [effect.influence.standard_uncertainty for effect in effects]
-    moved = [size * _sensitivity(systems, solution, e, moments) for size, e in zip(sizes, effects, strict=True)]
-    systematic = np.array(moved).reshape(len(effects), len(solution.labels))
+    return budget_of(solution, moments_of(systems, solution, effects))
+
+
+def budget_of(solution: Solution, moments: Moments) -> Budget:
+    """The budget of a solution to first order, from the moments about it."""
+    effects = moments.effects
+    sizes = np.array([effect.influence.standard_uncertainty for effect in effects]).reshape(-1, 1)
+    systematic = sizes * np.linalg.solve(moments.gram.sum(axis=0), moments.moved.sum(axis=1).T).T / moments.norms
     freedoms = np.array([effect.influence.degrees_of_freedom for effect in effects])
     scatter = solution.standard_uncertainty
     contributions = np.column_stack([scatter, np.abs(systematic).T])
@@ -161,17 +168,25 @@ def uncertainty_budget(systems: Systems, solution: Solution, effects: Sequence[E
     )
 
 
-def agreement(systems: Systems, solution: Solution, effects: Sequence[Effect], budget: Budget, seed: int = 0) -> Agreement:
+def agreement(solution: Solution, moments: Moments, budget: Budget, seed: int = 0) -> Agreement:
     """The budget again by random draws, and whether both agree.
+
+    Parameters
+    ----------
+    solution : Solution
+    moments : Moments
+        About it, with what the influences change.
+    budget : Budget
+    seed : int
 
     Raises
     ------
     UnsupportedError
         If there is no influence to draw, or the draws do not settle.
     """
-    if not effects:
+    if not moments.effects:
         raise UnsupportedError("the test states no systematic influence; add [[influences]] to its file to draw from them")
-    draw = _sampler(systems, solution, effects)
+    draw = _sampler(solution, moments)
     half = _NORMAL * budget.standard_uncertainty
     beyond, trials = np.zeros((len(half), 2)), 0
 
@@ -201,160 +216,36 @@ def _lines(contributions: Array, degrees: Array, effects: Sequence[Effect]) -> t
     return tuple(sorted(lines.values(), key=lambda line: -line.contribution))
 
 
-@dataclass(frozen=True, slots=True)
-class _Moments:
-    """The normal equations of every run, columns scaled to unit length over all runs.
-
-    The design is well conditioned on scaled columns (the verdict says when it is not), so that they lose nothing here.
-    """
-
-    norms: Array
-    gram: Array
-    moment: Array
-    powers: Array
-
-
-@dataclass(frozen=True, slots=True)
-class _Loads:
-    """What q of all k effects, those on single loads, change in the normal equations of p parameters.
-
-    With the sizes s of all effects and D_i the change of the design, the information gains `sum s_i (D_i^T A + A^T D_i) +
-    sum s_i s_j D_i^T D_j`, the moment `sum s_i (D_i^T y - sum s_l D_i^T shift_l)`.
-    """
-
-    which: np.ndarray[tuple[int], np.dtype[np.int_]]
-    cross: Array
-    square: Array
-    moment: Array
-    shifted: Array
-
-    def information(self, sizes: Array) -> Array:
-        """What draws of the sizes, shape (c, k), add to the information, shape (c, p, p)."""
-        own = sizes[:, self.which]
-        return np.asarray(
-            np.einsum("ci,ipq->cpq", own, self.cross) + np.einsum("ci,cj,ijpq->cpq", own, own, self.square, optimize=True)
-        )
-
-    def moved(self, sizes: Array) -> Array:
-        """What they add to the moment, shape (c, p)."""
-        own = sizes[:, self.which]
-        return np.asarray(own @ self.moment - np.einsum("ci,cl,ilp->cp", own, sizes, self.shifted, optimize=True))
-
-
-def _moments(systems: Systems, solution: Solution) -> _Moments:
-    runs = [select(run.factor, solution.labels) for run in systems.runs]
-    norms = np.sqrt(sum(np.sum(run.R**2, axis=0) for run in runs))
-    by_name = {source.name: source.force_degree for source in systems.sources}
-    return _Moments(
-        norms=norms,
-        gram=np.array([(run.R / norms).T @ (run.R / norms) for run in runs]),
-        moment=np.array([(run.R / norms).T @ run.z for run in runs]),
-        powers=np.array([by_name[label] for label in solution.labels]),
-    )
-
-
-def _shifted(systems: Systems, solution: Solution, effect: Effect, norms: Array) -> Array:
-    """`A^T s` of every run for the change s of its readings, shape (runs, p)."""
-    if effect.shift is None:
-        return np.zeros((len(systems.runs), len(norms)))
-    pairs = zip(systems.runs, effect.shift, strict=True)
-    return np.array([(run.design_of(solution.labels) / norms).T @ (run.counted * shift) for run, shift in pairs])
-
-
-def _columns(systems: Systems, solution: Solution, effect: Effect, norms: Array) -> list[Array]:
-    """Change of the design of every run, scaled like its columns."""
-    columns = systems.runs[0].factor.labels
-    chosen = [columns.index(label) for label in solution.labels]
-    return [change[:, chosen] / norms for change in effect.columns or ()]
-
-
-def _counted(systems: Systems, columns: Sequence[Array]) -> list[Array]:
-    """Columns of every run, each reading with what it counts."""
-    return [c * np.reshape(run.counted, (-1, 1)) for run, c in zip(systems.runs, columns, strict=False)]
-
-
-def _loads(systems: Systems, solution: Solution, effects: Sequence[Effect], norms: Array) -> _Loads:
-    """What effects on single loads change in the normal equations."""
-    plain = [(k, _columns(systems, solution, effect, norms)) for k, effect in enumerate(effects) if effect.columns]
-    changed = [(k, _counted(systems, columns)) for k, columns in plain]
-    designs = [run.design_of(solution.labels) / norms for run in systems.runs]
-    p, readings = len(norms), [run.reading for run in systems.runs]
-    half = np.array([sum(d.T @ a for d, a in zip(D, designs, strict=True)) for _, D in changed]).reshape(-1, p, p)
-    return _Loads(
-        which=np.array([k for k, _ in changed], dtype=int),
-        cross=half + half.swapaxes(1, 2),
-        square=np.array([[sum(d.T @ e for d, e in zip(D, E, strict=True)) for _, E in plain] for _, D in changed]),
-        moment=np.array([sum(d.T @ y for d, y in zip(D, readings, strict=True)) for _, D in changed]).reshape(-1, p),
-        shifted=np.array([[_across(D, effect) for effect in effects] for _, D in changed]).reshape(-1, len(effects), p),
-    )
-
-
-def _across(columns: Sequence[Array], effect: Effect) -> Array:
-    """`D^T s` over all runs for a change D of the design and a shift s of the readings."""
-    if effect.shift is None:
-        return np.zeros(columns[0].shape[1])
-    return np.asarray(sum(d.T @ s for d, s in zip(columns, effect.shift, strict=True)))
-
-
-def _sensitivity(systems: Systems, solution: Solution, effect: Effect, runs: _Moments) -> Array:
-    """Change of the estimate per unit of the influence quantity, shape (p,)."""
-    moved = _moved(systems, solution, effect, runs).sum(axis=0)
-    return np.asarray(np.linalg.solve(runs.gram.sum(axis=0), moved) / runs.norms)
-
-
-def _moved(systems: Systems, solution: Solution, effect: Effect, runs: _Moments) -> Array:
-    """By how much the normal equations of each run are off per unit of the influence quantity, shape (runs, p)."""
-    values = solution.values * runs.norms
-    rest = runs.moment - runs.gram @ values
-    moved = effect.stretch[:, np.newaxis] * (runs.powers * rest - runs.gram @ (runs.powers * values))
-    moved -= _shifted(systems, solution, effect, runs.norms)
-    changes = _counted(systems, _columns(systems, solution, effect, runs.norms))
-    for k, (run, change) in enumerate(zip(systems.runs, changes, strict=False)):
-        design = run.design_of(solution.labels) / runs.norms
-        moved[k] += change.T @ (run.reading - design @ values) - design.T @ (change @ values)
-    return np.asarray(moved)
-
-
-def moments_moved(systems: Systems, solution: Solution, effects: Sequence[Effect]) -> Array:
-    """By how much the normal equations of each run are off for one standard uncertainty of each effect.
-
-    Shape (effects, runs, p), of columns scaled to unit length over all runs.
-    """
-    runs = _moments(systems, solution)
-    sizes = (effect.influence.standard_uncertainty for effect in effects)
-    found = [size * _moved(systems, solution, effect, runs) for size, effect in zip(sizes, effects, strict=True)]
-    return np.array(found).reshape(len(effects), len(systems.runs), len(runs.norms))
-
-
-def _sampler(systems: Systems, solution: Solution, effects: Sequence[Effect]) -> Callable[[np.random.Generator, int], Array]:
+def _sampler(solution: Solution, runs: Moments) -> Callable[[np.random.Generator, int], Array]:
     """Draws of the parameters, shape (count, p): each trial solves the test anew, with forces and readings of its own.
 
     Every standard uncertainty counts as known.
     """
-    known = [replace(effect.influence, degrees_of_freedom=inf) for effect in effects]
-    runs = _moments(systems, solution)
-    stretch, kin = np.unique(np.array([effect.stretch for effect in effects]), axis=1, return_inverse=True)
+    known = [replace(effect.influence, degrees_of_freedom=inf) for effect in runs.effects]
+    stretch, kin = np.unique(np.array([effect.stretch for effect in runs.effects]), axis=1, return_inverse=True)
     # Runs whose force every influence stretches alike are one run to the draws.
     together = (kin.ravel() == np.arange(stretch.shape[1])[:, np.newaxis]).astype(float)
     gram = np.einsum("gr,rpq->gpq", together, runs.gram)
     moment = together @ runs.moment
-    shifted = np.array([together @ _shifted(systems, solution, effect, runs.norms) for effect in effects])
-    loads = _loads(systems, solution, effects, runs.norms)
+    shifted, loads = together @ runs.shifted, runs.loads
     deviation = solution.standard_uncertainty * runs.norms
     # By run the covariance has no higher rank than there are runs: no Cholesky factor, but a root all the same.
     correlation = solution.covariance / np.outer(solution.standard_uncertainty, solution.standard_uncertainty)
     spreads, vectors = np.linalg.eigh(correlation)
     root = vectors * np.sqrt(np.maximum(spreads, 0.0))
 
-    def draw(random: np.random.Generator, count: int) -> Array:
-        sizes = np.column_stack([np.zeros((count, 0)), *(influence.draws(random, count) for influence in known)])
+    def solved(sizes: Array) -> Array:
         factors = (1.0 + sizes @ stretch)[:, :, np.newaxis] ** runs.powers
         moved = moment - np.einsum("ck,kgp->cgp", sizes, shifted)
         information = np.einsum("cgp,gpq,cgq->cpq", factors, gram, factors, optimize=True)
         summed = np.sum(factors * moved, axis=1)
         if len(loads.which):
             information, summed = information + loads.information(sizes), summed + loads.moved(sizes)
-        values = np.linalg.solve(information, summed[..., np.newaxis])[..., 0]
+        return np.asarray(np.linalg.solve(information, summed[..., np.newaxis])[..., 0])
+
+    def draw(random: np.random.Generator, count: int) -> Array:
+        sizes = np.column_stack([np.zeros((count, 0)), *(influence.draws(random, count) for influence in known)])
+        values = np.vstack([solved(sizes[first : first + _AT_ONCE]) for first in range(0, count, _AT_ONCE)])
         scatter = random.standard_normal((count, len(root))) @ root.T * deviation
         return np.asarray((values + scatter) / runs.norms)
 

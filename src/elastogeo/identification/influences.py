@@ -22,34 +22,48 @@ import numpy as np
 
 from elastogeo.errors import InputError
 from elastogeo.estimate import Influence
-from elastogeo.identification.systems import RunSystem, Systems
+from elastogeo.identification.run_system import RunSystem
+from elastogeo.identification.systems import Systems
 from elastogeo.machine import Array, Machine
-from elastogeo.observe import Campaign, KnownInfluence, MachineTest, ObservedInfluence
+from elastogeo.observe import KnownInfluence, MachineTest, ObservedInfluence
 from elastogeo.sources import Source, design_rows, load_derivative, select_sources
 
 FORM_ORDERS = (2, 3, 4, 5)
 """Harmonics of a ball's form that are let loose; the first order is an offset of the ball."""
 
 
+Rule = Callable[[RunSystem], Array]
+"""What something does to the readings, or to the design, of a run."""
+
+
 @dataclass(frozen=True, slots=True)
 class Effect:
     """How one influence quantity changes a test, per unit of the quantity.
+
+    What changes reading by reading is a rule, not held: it is made of a run while its rows are.
 
     Attributes
     ----------
     influence : Influence
     stretch : array, shape (runs,)
         Relative change of the force of each run.
-    shift : tuple of array, shape (m,), one per run, or None
-        By how much the readings are too great [mm]; None if they are not.
-    columns : tuple of array, shape (m, p), one per run, or None
-        Change of the design where it does not change with the force of the whole run; None if there is none.
+    shift : callable, from a run to an array, shape (m,), or None
+        By how much its readings are too great [mm]; None if none is.
+    columns : callable, from a run to an array, shape (m, p), or None
+        Change of its design where it does not change with the force of the whole run; None if there is none.
+    tests : frozenset of str, or None
+        Tests on whose readings it acts; None for all.
     """
 
     influence: Influence
     stretch: Array
-    shift: tuple[Array, ...] | None = None
-    columns: tuple[Array, ...] | None = None
+    shift: Rule | None = None
+    columns: Rule | None = None
+    tests: frozenset[str] | None = None
+
+    def acts_in(self, test: str) -> bool:
+        """Whether it changes readings, or single loads, of a test."""
+        return (self.shift is not None or self.columns is not None) and (self.tests is None or test in self.tests)
 
 
 EffectMaker = Callable[[KnownInfluence, MachineTest, Systems], Iterator[Effect]]
@@ -68,7 +82,7 @@ def effect(kind: str, of: Belonging = "instrument") -> Callable[[EffectMaker], E
 
 
 @dataclass(frozen=True, slots=True)
-class _Quantity:
+class Quantity:
     """Which influence quantity an effect is of: those of one owner and one name are one."""
 
     owner: str
@@ -77,33 +91,21 @@ class _Quantity:
     number: int
 
 
-def effects(campaign: Campaign, systems: Systems) -> tuple[Effect, ...]:
-    """The effects of all influences that the tests state; of those that share an instrument, one.
+def stated_effects(name: str, test: MachineTest, systems: Systems) -> Iterator[tuple[Quantity, Effect]]:
+    """The effects of one test on its own runs, each with the quantity that it is of.
 
     Raises
     ------
     InputError
-        If a kind is unknown, an entry lacks the size that its kind needs, or two tests state different things of one
-        instrument.
+        If a kind is unknown, or an entry lacks the size that its kind needs.
     """
-    found: dict[_Quantity, list[tuple[str, Effect]]] = {}
-    for name, test in campaign.tests.items():
-        own = systems.of(name)
-        if own.runs:
-            for quantity, one in _of_test(name, test, own):
-                found.setdefault(quantity, []).append((name, one))
-    return tuple(_together(quantity, parts, systems) for quantity, parts in found.items())
-
-
-def _of_test(name: str, test: MachineTest, systems: Systems) -> Iterator[tuple[_Quantity, Effect]]:
-    """The effects of one test on its own runs, each with the quantity that it is of."""
     count: Counter[tuple[str, str, str]] = Counter()
     for kind, of, stated in _stated(test, systems):
         one = _beside_weights(stated, test, systems)
         serial = test.about.instrument_serial.strip()
         owner = f"instrument {serial}" if serial and of == "instrument" else f"test {name}"
         label = one.influence.label
-        yield _Quantity(owner, kind, label, count[owner, kind, label]), one
+        yield Quantity(owner, kind, label, count[owner, kind, label]), one
         count[owner, kind, label] += 1
 
 
@@ -113,14 +115,14 @@ def _beside_weights(effect: Effect, test: MachineTest, systems: Systems) -> Effe
     masses += [test.workpiece.mass or 0.0] if test.workpiece else []
     if not effect.stretch.any() or not any(masses):
         return effect
-    changes = [
-        run.without_own(load_derivative(systems.sources, test.machine, run.observations, run.observations.wrench))
-        for run in systems.runs
-    ]
-    columns = [size * change for size, change in zip(effect.stretch, changes, strict=True)]
-    if effect.columns is not None:
-        columns = [column + other for column, other in zip(columns, effect.columns, strict=True)]
-    return replace(effect, stretch=np.zeros_like(effect.stretch), columns=tuple(columns))
+    stretch = {run.name: float(size) for run, size in zip(systems.runs, effect.stretch, strict=True)}
+
+    def columns(run: RunSystem) -> Array:
+        change = load_derivative(systems.sources, test.machine, run.observations, run.observations.wrench)
+        own = stretch[run.name] * run.without_own(change)
+        return own if effect.columns is None else own + effect.columns(run)
+
+    return replace(effect, stretch=np.zeros_like(effect.stretch), columns=columns)
 
 
 def _stated(test: MachineTest, systems: Systems) -> Iterator[tuple[str, Belonging, Effect]]:
@@ -134,8 +136,14 @@ def _stated(test: MachineTest, systems: Systems) -> Iterator[tuple[str, Belongin
             yield known.kind, of, one
 
 
-def _together(quantity: _Quantity, parts: Sequence[tuple[str, Effect]], systems: Systems) -> Effect:
-    """The effect of one quantity on all runs: none on those of tests that do not have it."""
+def together(quantity: Quantity, parts: Sequence[tuple[str, Effect]], systems: Systems) -> Effect:
+    """The effect of one quantity, with that in each test that has it by name, on all runs: none on those of other tests.
+
+    Raises
+    ------
+    InputError
+        If two tests state different things of one instrument.
+    """
     (first, one), *others = parts
     for name, other in others:
         if other.influence != one.influence:
@@ -157,24 +165,23 @@ def _on_all_runs(by_test: Mapping[str, Effect], systems: Systems) -> Effect:
     one = next(iter(by_test.values()))
     if len(systems.tests) == 1:
         return one
-    at = {name: [k for k, run in enumerate(systems.runs) if run.test == name] for name in by_test}
     stretch = np.zeros(len(systems.runs))
     for name, part in by_test.items():
-        stretch[at[name]] = part.stretch
-    shifts = {k: s for name, part in by_test.items() for k, s in zip(at[name], part.shift or (), strict=False)}
-    columns = {k: c for name, part in by_test.items() for k, c in zip(at[name], part.columns or (), strict=False)}
-    none = len(systems.sources)
+        stretch[[k for k, run in enumerate(systems.runs) if run.test == name]] = part.stretch
     return Effect(
         one.influence,
         stretch,
-        tuple(shifts.get(k, _nothing(run)) for k, run in enumerate(systems.runs)) if shifts else None,
-        tuple(columns.get(k, _nothing(run, none)) for k, run in enumerate(systems.runs)) if columns else None,
+        _by_test({name: part.shift for name, part in by_test.items() if part.shift is not None}),
+        _by_test({name: part.columns for name, part in by_test.items() if part.columns is not None}, len(systems.sources)),
+        frozenset(by_test),
     )
 
 
-def _nothing(run: RunSystem, *columns: int) -> Array:
-    """Zeros for every reading of a run, which take no memory."""
-    return np.broadcast_to(0.0, (len(run.reading), *columns))
+def _by_test(rules: Mapping[str, Rule], *columns: int) -> Rule | None:
+    """The rule of the test that a run is of; in others nothing changes."""
+    if not rules:
+        return None
+    return lambda run: rules[run.test](run) if run.test in rules else np.zeros((run.readings, *columns))
 
 
 def _said(influence: Influence) -> str:
@@ -183,20 +190,26 @@ def _said(influence: Influence) -> str:
 
 def _observed(machine: Machine, systems: Systems) -> Iterator[Effect]:
     """The effects of what is uncertain in the observations themselves."""
-    for several in zip(*(run.observations.influences for run in systems.runs), strict=True):
-        first = several[0]
-        loads = any(one.wrench.any() for one in several)
+    several = [run.observations.influences for run in systems.runs]
+    for k, of_runs in enumerate(zip(*several, strict=True)):
+        first = of_runs[0]
         yield Effect(
             Influence(first.label, first.standard_uncertainty, "normal", first.degrees_of_freedom),
-            np.array([_stretch(run, one) for run, one in zip(systems.runs, several, strict=True)]),
-            tuple(-one.reading for one in several) if any(one.reading.any() for one in several) else None,
-            tuple(
-                run.without_own(load_derivative(systems.sources, machine, run.observations, one.wrench))
-                for run, one in zip(systems.runs, several, strict=True)
-            )
-            if loads
-            else None,
+            np.array([_stretch(run, one) for run, one in zip(systems.runs, of_runs, strict=True)]),
+            partial(_reads_less, k) if any(one.reading.any() for one in of_runs) else None,
+            partial(_loads_otherwise, k, systems.sources, machine) if any(one.wrench.any() for one in of_runs) else None,
         )
+
+
+def _reads_less(k: int, run: RunSystem) -> Array:
+    """By how much the readings are too great for the k-th influence that came in with them."""
+    return -run.observations.influences[k].reading
+
+
+def _loads_otherwise(k: int, sources: Sequence[Source], machine: Machine, run: RunSystem) -> Array:
+    """What the k-th influence that came in with the observations changes of the design."""
+    seen = run.observations
+    return run.without_own(load_derivative(sources, machine, seen, seen.influences[k].wrench))
 
 
 def _stretch(run: RunSystem, influence: ObservedInfluence) -> float:
@@ -240,7 +253,7 @@ def force_level(known: KnownInfluence, _: MachineTest, systems: Systems) -> Iter
 @effect("bar-length")
 def bar_length(known: KnownInfluence, _: MachineTest, systems: Systems) -> Iterator[Effect]:
     """The bar is longer than its calibration says."""
-    yield _reading_effect(_influence(known, known.length, "length_um"), systems, lambda run: np.ones(len(run.rows)))
+    yield _reading_effect(_influence(known, known.length, "length_um"), systems, lambda run: np.ones(run.readings))
 
 
 @effect("tool-offset", of="test")
@@ -319,5 +332,5 @@ def _influence(known: KnownInfluence, scale: float | None, field: str, where: st
     return Influence(f"{known.label or known.kind}{where}", scale, known.distribution, known.degrees_of_freedom)
 
 
-def _reading_effect(influence: Influence, systems: Systems, shift: Callable[[RunSystem], Array]) -> Effect:
-    return Effect(influence, np.zeros(len(systems.runs)), tuple(shift(run) for run in systems.runs))
+def _reading_effect(influence: Influence, systems: Systems, shift: Rule) -> Effect:
+    return Effect(influence, np.zeros(len(systems.runs)), shift)

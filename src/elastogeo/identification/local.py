@@ -13,7 +13,8 @@ from elastogeo.errors import DegreesOfFreedomError, RankError
 from elastogeo.estimate import Common, Repeatability, repeatability, solve
 from elastogeo.identification.change import Change, local_change, run_dispersion
 from elastogeo.identification.result import Local
-from elastogeo.identification.systems import RunSystem, Systems, merged, noise_of
+from elastogeo.identification.run_system import RunSystem
+from elastogeo.identification.systems import Systems, merged, noise_of
 
 
 def adjacent(levels: Sequence[float]) -> tuple[tuple[float, ...], ...]:

@@ -6,19 +6,18 @@ force, translations for a moment, rotations for a moment; joints that move befor
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from elastogeo.machine import AXIS_ORDER, Machine
-from elastogeo.observe import Observations
+from elastogeo.machine import AXIS_ORDER, Array, Machine
 from elastogeo.sources import Source
 
 _LAST = 99
 
 
 def retaining_order(
-    sources: Sequence[Source], machine: Machine, observations: Iterable[Observations], prefer: Sequence[str] = ()
+    sources: Sequence[Source], machine: Machine, spans: Sequence[Array], prefer: Sequence[str] = ()
 ) -> tuple[str, ...]:
     """Names of the sources, the one to retain first coming first.
 
@@ -26,19 +25,18 @@ def retaining_order(
     ----------
     sources : sequence of Source
     machine : Machine
-    observations : iterable of Observations
-        They tell which axes move.
+    spans : sequence of array, shape (axes,)
+        By how much the command of each axis changes within each run: they tell which axes move.
     prefer : sequence of str
         Names that come before all others, in this order.
     """
-    moving = moving_axes(machine, observations)
+    moving = moving_axes(machine, spans)
     ranked = sorted(range(len(sources)), key=lambda k: (*_rank(sources[k], machine, moving), k))
     return tuple(dict.fromkeys([*prefer, *(sources[k].name for k in ranked)]))
 
 
-def moving_axes(machine: Machine, observations: Iterable[Observations]) -> frozenset[str]:
-    """The axes whose command changes within any of the runs."""
-    spans = [np.ptp(run.commands, axis=0) for run in observations]
+def moving_axes(machine: Machine, spans: Sequence[Array]) -> frozenset[str]:
+    """The axes whose command changes within any of the runs, by how much it does in each, shape (axes,)."""
     return frozenset(axis for axis, span in zip(machine.axes, np.max(spans, axis=0), strict=True) if span > 0)
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Literal, TypedDict, TypeVar
 
 import numpy as np
@@ -12,11 +13,11 @@ from elastogeo.errors import InputError
 from elastogeo.estimate import Confounding, confounding
 from elastogeo.identification.campaigns.precision import weighted
 from elastogeo.identification.campaigns.scopes import Scopes, preferred, scopes_of
-from elastogeo.identification.influences import Effect, effects, on_all_runs
+from elastogeo.identification.influences import Effect, Quantity, on_all_runs, stated_effects, together
 from elastogeo.identification.levels import force_levels, force_spread
 from elastogeo.identification.preference import retaining_order
+from elastogeo.identification.readings.rounding import rounding_effects
 from elastogeo.identification.reciprocity import Reciprocity, reciprocity
-from elastogeo.identification.rounding import rounding_effects
 from elastogeo.identification.systems import Systems, joined, merged, run_systems
 from elastogeo.observe import Askable, Campaign, MachineTest, Observations, ObservedInfluence, campaign_of
 from elastogeo.sources import Source, select_sources
@@ -111,29 +112,51 @@ def systems_of(one: Askable, observations: Sequence[Observations] | None = None)
     InputError
         If a reference level is to be subtracted in one of several tests.
     """
-    campaign = campaign_of(one)
-    found = campaign.observations() if observations is None else dict.fromkeys(campaign.tests, tuple(observations))
-    scopes = scopes_of(campaign)
-    tests = {name: _of_test(name, test, found[name], scopes, campaign.several) for name, test in campaign.tests.items()}
-    systems = joined(list(tests.values()))
+    campaign, scopes = campaign_of(one), scopes_of(campaign_of(one))
     if not campaign.several:
-        return systems
-    return weighted(systems, {name: test.resolution for name, test in campaign.tests.items()})
+        name, test = next(iter(campaign.tests.items()))
+        return _of_test(name, test, test.observations() if observations is None else observations, scopes)
+    again = _ObservedAgain(campaign)
+    tests = [_of_test(name, test, again(name), scopes, partial(again, name)) for name, test in campaign.tests.items()]
+    return weighted(joined(tests), {name: test.resolution for name, test in campaign.tests.items()})
 
 
-def _of_test(name: str, test: MachineTest, observed: Sequence[Observations], scopes: Scopes, several: bool) -> Systems:
-    """The systems of one test, with the columns of all; of several tests, each run under the name of its test too."""
-    chosen = chosen_observations(test, observed)
+class _ObservedAgain:
+    """The observations of the tests of a campaign, made when they are asked for: those of the last one are kept.
+
+    Of several tests the runs bear the name of their test too.
+    """
+
+    def __init__(self, campaign: Campaign) -> None:
+        self._campaign, self._centre = campaign, campaign.centre()
+        self._name, self._last = "", tuple[Observations, ...]()
+
+    def __call__(self, name: str) -> tuple[Observations, ...]:
+        if name != self._name:
+            test = self._campaign.tests[name]
+            reference = test.question.reference_force
+            if reference is not None:
+                raise InputError(
+                    f"test {name!r} subtracts the readings at {reference:g} N; several tests are asked together without a "
+                    f"reference level, with geometry and set-up in the model: ask with reference 'none'"
+                )
+            seen = chosen_observations(test, self._campaign.observed(name, self._centre))
+            self._name, self._last = name, tuple(replace(run, run=f"{name}/{run.run}") for run in seen)
+        return self._last
+
+
+def _of_test(
+    name: str,
+    test: MachineTest,
+    observed: Sequence[Observations],
+    scopes: Scopes,
+    again: Callable[[], Sequence[Observations]] | None = None,
+) -> Systems:
+    """The systems of one test, with the columns of all; of several tests with how its observations are made again."""
+    chosen = observed if again else chosen_observations(test, observed)
     reference, own = test.question.reference_force, own_to_run(test)
-    if several:
-        if reference is not None:
-            raise InputError(
-                f"test {name!r} subtracts the readings at {reference:g} N; several tests are asked together without a "
-                f"reference level, with geometry and set-up in the model: ask with reference 'none'"
-            )
-        chosen = tuple(replace(run, run=f"{name}/{run.run}") for run in chosen)
     spread, absent = force_spread(test), scopes.absent[name]
-    return run_systems(scopes.sources, test.machine, chosen, reference, own, spread, name, absent, not several)
+    return run_systems(scopes.sources, test.machine, chosen, reference, own, spread, name, absent, again)
 
 
 def sources_of(one: Askable) -> tuple[Source, ...]:
@@ -169,10 +192,10 @@ def chosen_observations(test: MachineTest, observations: Sequence[Observations])
 
 def confounding_of(one: Askable, systems: Systems) -> Confounding:
     """What the tests can and cannot tell apart of what their question asks for."""
-    campaign, observations = campaign_of(one), [run.observations for run in systems.runs]
+    campaign = campaign_of(one)
     prefer = preferred(campaign.question.prefer, systems.sources)
-    order = retaining_order(systems.sources, campaign.machine, observations, prefer)
-    return confounding(merged(systems.runs), order, systems.ceilings, max(run.collinear for run in observations))
+    order = retaining_order(systems.sources, campaign.machine, [run.spans for run in systems.runs], prefer)
+    return confounding(merged(systems.runs), order, systems.ceilings, max(run.collinear for run in systems.runs))
 
 
 def what_reciprocity_buys(test: MachineTest) -> Reciprocity:
@@ -190,13 +213,14 @@ def effects_of(one: Askable, systems: Systems) -> tuple[Effect, ...]:
     """
     if systems.references:
         return ()
-    campaign = campaign_of(one)
-    rounded = (
-        on_all_runs(effect, name, systems)
-        for name, test in campaign.tests.items()
-        for effect in rounding_effects(systems.of(name), test.resolution)
-    )
-    return (*effects(campaign, systems), *rounded)
+    found: dict[Quantity, list[tuple[str, Effect]]] = {}
+    rounded: list[Effect] = []
+    for name, test in campaign_of(one).tests.items():
+        own = systems.of(name)
+        for quantity, effect in stated_effects(name, test, own) if own.runs else ():
+            found.setdefault(quantity, []).append((name, effect))
+        rounded += [on_all_runs(effect, name, systems) for effect in rounding_effects(own, test.resolution)]
+    return (*(together(quantity, parts, systems) for quantity, parts in found.items()), *rounded)
 
 
 def with_stated(test: MachineTest, observations: Sequence[Observations]) -> Sequence[Observations]:
@@ -219,7 +243,7 @@ def with_stated(test: MachineTest, observations: Sequence[Observations]) -> Sequ
                         effect.influence.standard_uncertainty,
                         effect.influence.degrees_of_freedom,
                         effect.stretch[k] * run.wrench,
-                        np.zeros(len(run)) if effect.shift is None else -effect.shift[k],
+                        np.zeros(len(run)) if effect.shift is None else -effect.shift(systems.runs[k]),
                     )
                     for effect in known
                 ),

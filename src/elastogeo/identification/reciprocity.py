@@ -144,7 +144,9 @@ def _found(
 ) -> Confounding:
     systems = run_systems(sources, machine, observations, reference)
     names = {source.name for source in sources}
-    order = retaining_order(sources, machine, observations, [name for name in prefer if name in names])
+    order = retaining_order(
+        sources, machine, [run.spans for run in systems.runs], [name for name in prefer if name in names]
+    )
     return confounding(merged(systems.runs), order, systems.ceilings)
 
 

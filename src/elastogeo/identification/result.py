@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from elastogeo.equality import ByValue
@@ -249,7 +249,8 @@ class Identification(Result):
         Whether the local estimates differ by more than their uncertainty.
     minimum_norm : dict of str to float
         Minimum-norm solution over all parameters that were asked for.
-    traces : tuple of Trace
+    traces : sequence of Trace
+        Of several tests each is made when it is asked for, of readings that are observed again.
     levels : tuple of Level
     local : tuple of Local
         From adjacent force levels; empty for several tests.
@@ -257,7 +258,7 @@ class Identification(Result):
         From the levels that were repeated, if at least two were.
     patterns : tuple of Pattern
     responses : tuple of Response
-        Of the first run of each force level in each direction.
+        Of the first run of each force level in each direction; empty for several tests.
     variable : VariableCompliance or None
         The model whose compliances change with the force, where the runs determine it.
     set_up : dict of str to dict of str to float [mm]
@@ -294,7 +295,7 @@ class Identification(Result):
     budget: Budget
     local_change: Change | None
     minimum_norm: dict[str, float]
-    traces: tuple[Trace, ...]
+    traces: Sequence[Trace]
     levels: tuple[Level, ...]
     local: tuple[Local, ...]
     repeats: Repeatability | None

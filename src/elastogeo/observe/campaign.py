@@ -10,7 +10,7 @@ import numpy as np
 
 from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
-from elastogeo.machine import Machine
+from elastogeo.machine import Array, Machine
 from elastogeo.observe.measurement import MachineTest, Question
 from elastogeo.observe.observations import Observations
 
@@ -102,17 +102,24 @@ class Campaign(ByValue):
         return "; ".join(_each_once(test.simulated for test in self.tests.values() if test.simulated))
 
     def observations(self) -> dict[str, tuple[Observations, ...]]:
-        """The observations of every test, as `MachineTest.observations`.
+        """The observations of every test, as `MachineTest.observations`, about one centre."""
+        centre = self.centre()
+        return {name: self.observed(name, centre) for name in self.tests}
 
-        Of several tests, polynomials of the commands count from one centre, the middle of theirs: else `E_XX1` beside
-        `E_XX2` would be another number in each.
+    def observed(self, name: str, centre: Array | None) -> tuple[Observations, ...]:
+        """The observations of one test about the centre of all."""
+        found = self.tests[name].observations()
+        return found if centre is None else tuple(replace(run, centre=centre) for run in found)
+
+    def centre(self) -> Array | None:
+        """Axis commands from which polynomials of the commands count, shape (axes,); None if each test's own will do.
+
+        Of several tests it is the middle of theirs: else `E_XX1` beside `E_XX2` would be another number in each.
         """
-        found = {name: test.observations() for name, test in self.tests.items()}
-        centres = np.array([run.centre for runs in found.values() for run in runs[:1]])
-        if not len(centres) or not np.ptp(centres, axis=0).any():
-            return found
-        centre = (centres.min(axis=0) + centres.max(axis=0)) / 2
-        return {name: tuple(replace(run, centre=centre) for run in runs) for name, runs in found.items()}
+        if not self.several:
+            return None
+        centres = np.array([test.observations()[0].centre for test in self.tests.values()])
+        return np.asarray((centres.min(axis=0) + centres.max(axis=0)) / 2) if np.ptp(centres, axis=0).any() else None
 
 
 Askable = MachineTest | Campaign | Sequence[MachineTest] | Mapping[str, MachineTest]

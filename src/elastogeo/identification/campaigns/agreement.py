@@ -19,12 +19,12 @@ from math import nan
 from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from elastogeo.estimate import RANK_TOLERANCE, Array, Solution, select
-from elastogeo.identification.budget import moments_moved
+from elastogeo.estimate import RANK_TOLERANCE, Array, Factor, Solution, merge, select
 from elastogeo.identification.check import Check
-from elastogeo.identification.influences import Effect
+from elastogeo.identification.moments import Moments
 from elastogeo.identification.systems import Systems, merged
 
 TESTS_AGREE = "tests agree"
@@ -123,28 +123,32 @@ class TestsAgreement:
     scatter_freedom: float
 
 
+Rows = NDArray[np.int_]
+
+
 @dataclass(frozen=True, slots=True)
 class _Seen:
     """What some runs see: as many independent numbers of unit variance as their columns have rank.
 
     `design` (k, r), `seen` (k,) and `moved` (effects, k): what one standard uncertainty of each effect adds to them. `basis`
-    (n, k): how they come from the n numbers that all runs see, each by itself.
+    (m, k): how they come from the m numbers that these runs see, each by itself; `rows` (m,) says which of all runs' numbers
+    these are.
     """
 
     design: Array
     seen: Array
     moved: Array
     basis: Array
+    rows: Rows
 
 
 @dataclass(frozen=True, slots=True)
 class _Run:
-    """What one run sees, and which of the numbers of all runs these are."""
+    """What one run sees."""
 
     level: float
     name: str
     seen: _Seen
-    rows: slice
 
 
 _Tests = Mapping[str, Sequence[_Run]]
@@ -161,7 +165,7 @@ class _Scatter:
 
     square: float
     freedom: int
-    rows: np.ndarray[tuple[int], np.dtype[np.int_]]
+    rows: Rows
     seen: Array
     free: Array
     maker: Array
@@ -192,7 +196,7 @@ class _Looks:
         return tuple(name for name, p in self.p_values.items() if p < LEVEL)
 
 
-def tests_agreement(systems: Systems, solution: Solution, effects: Sequence[Effect]) -> TestsAgreement | None:
+def tests_agreement(systems: Systems, solution: Solution, moments: Moments) -> TestsAgreement | None:
     """Whether the tests agree; None of one test.
 
     Two looks share the level, each with Holm's adjustment: at every test, against what runs scatter within tests; and at
@@ -203,19 +207,22 @@ def tests_agreement(systems: Systems, solution: Solution, effects: Sequence[Effe
     systems : Systems
     solution : Solution
         From all tests.
-    effects : sequence of Effect
-        Systematic influences. What all tests share alike moves no difference between them.
+    moments : Moments
+        About it, with what systematic influences change. What all tests share alike moves no difference between them.
     """
     if len(systems.tests) < 2:
         return None
-    tests = _seen_by_run(systems, solution, effects)
+    tests = _seen_by_run(systems, solution, moments)
     looks, scatter = _looks(tests), [_own_scatter(runs) for runs in tests.values()]
     freedom, reading = sum(one.freedom for one in scatter), _reading(systems)
     named, rest_agrees = _named(tests, looks.disagreeing) if looks.disagreeing else ((), True)
     level, run = _wrong_part(tests, named[0]) if len(named) == 1 and rest_agrees else (None, "")
+    factors = {name: select(merged(systems.of(name).runs), solution.labels) for name in tests}
+    precision = {run.test: run.precision for run in systems.runs}
     against = {}
     for name, one in looks.tests.items():
-        rmse, fitted = _left_out(name, systems, solution)
+        rest = merge(*(factor for other, factor in factors.items() if other != name))
+        rmse, fitted = _left_out(factors[name], rest, precision[name])
         p_value = None if one.statistic is None else looks.p_values[name]
         against[name] = AgainstOthers(
             directions=one.directions,
@@ -261,52 +268,61 @@ def _reading(systems: Systems) -> float:
     return float(systems.scatter[run.test] * np.sqrt(run.precision))
 
 
-def _seen_by_run(systems: Systems, solution: Solution, effects: Sequence[Effect]) -> dict[str, list[_Run]]:
+def _seen_by_run(systems: Systems, solution: Solution, moments: Moments) -> dict[str, list[_Run]]:
     """What every run sees, by test."""
     factors = [select(run.factor, solution.labels) for run in systems.runs]
-    norms = np.linalg.norm([factor.column_norms for factor in factors], axis=0)
-    moved = moments_moved(systems, solution, effects)
+    norms = moments.norms
+    sizes = np.array([effect.influence.standard_uncertainty for effect in moments.effects])
+    moved = sizes[:, np.newaxis, np.newaxis] * moments.moved
     parts = [np.linalg.svd(factor.R / norms) for factor in factors]
     ranks = [_rank(sizes) for _, sizes, _ in parts]
-    every, first = np.eye(sum(ranks)), 0
+    first = 0
     found: dict[str, list[_Run]] = {name: [] for name in systems.tests}
     for k, (run, factor, (U, sizes, Vt), rank) in enumerate(zip(systems.runs, factors, parts, ranks, strict=True)):
-        rows = slice(first, first + rank)
         seen = _Seen(
             sizes[:rank, np.newaxis] * Vt[:rank],
             U[:, :rank].T @ factor.z,
             moved[:, k] @ Vt[:rank].T / sizes[:rank],
-            every[:, rows],
+            np.eye(rank),
+            np.arange(first, first + rank),
         )
-        found[run.test].append(_Run(run.force, run.name, seen, rows))
+        found[run.test].append(_Run(run.force, run.name, seen))
         first += rank
     return found
 
 
 def _joined(parts: Sequence[_Seen]) -> _Seen:
     """What some runs together see."""
-    every = _stacked(parts)
-    U, sizes, Vt = np.linalg.svd(every.design, full_matrices=False)
+    design, seen, moved = _stacked(parts)
+    U, sizes, Vt = np.linalg.svd(design, full_matrices=False)
     rank = _rank(sizes)
     own = U[:, :rank]
-    return _Seen(sizes[:rank, np.newaxis] * Vt[:rank], own.T @ every.seen, every.moved @ own, every.basis @ own)
+    basis, rows = _combined(parts, own)
+    return _Seen(sizes[:rank, np.newaxis] * Vt[:rank], own.T @ seen, moved @ own, basis, rows)
 
 
-def _stacked(parts: Sequence[_Seen]) -> _Seen:
-    return _Seen(
+def _stacked(parts: Sequence[_Seen]) -> tuple[Array, Array, Array]:
+    """Design, numbers and what effects add to them, of parts below one another."""
+    return (
         np.vstack([part.design for part in parts]),
         np.concatenate([part.seen for part in parts]),
         np.concatenate([part.moved for part in parts], axis=1),
-        np.concatenate([part.basis for part in parts], axis=1),
     )
 
 
-def _contradictions(parts: Sequence[_Seen]) -> tuple[Array, Array, Array]:
+def _combined(parts: Sequence[_Seen], vectors: Array) -> tuple[Array, Rows]:
+    """How combinations of what parts see come from what their runs see, each by itself; and which numbers these are."""
+    ends = np.cumsum([len(part.seen) for part in parts])[:-1]
+    pairs = zip(parts, np.split(vectors, ends), strict=True)
+    return np.vstack([part.basis @ own for part, own in pairs]), np.concatenate([part.rows for part in parts])
+
+
+def _contradictions(parts: Sequence[_Seen]) -> tuple[Array, Array, Array, Rows]:
     """What the parts say against one another, shape (q,), of unit variance; what the effects add; how it comes from all."""
-    every = _stacked(parts)
-    U, sizes, _ = np.linalg.svd(every.design)
+    design, seen, moved = _stacked(parts)
+    U, sizes, _ = np.linalg.svd(design)
     beyond = U[:, _rank(sizes) :]
-    return beyond.T @ every.seen, every.moved @ beyond, every.basis @ beyond
+    return beyond.T @ seen, moved @ beyond, *_combined(parts, beyond)
 
 
 def _rank(sizes: Array) -> int:
@@ -315,11 +331,11 @@ def _rank(sizes: Array) -> int:
 
 def _own_scatter(runs: Sequence[_Run]) -> _Scatter:
     """How the runs of a test scatter about its fit: what is left of each, adjusted for its part in the fit (CR2)."""
-    every = _stacked([run.seen for run in runs])
-    U, sizes, _ = np.linalg.svd(every.design, full_matrices=False)
+    design, numbers, _ = _stacked([run.seen for run in runs])
+    U, sizes, _ = np.linalg.svd(design, full_matrices=False)
     fit = U[:, : _rank(sizes)]
     maker = np.eye(len(fit)) - fit @ fit.T
-    left, first, size = maker @ every.seen, 0, len(fit)
+    left, first, size = maker @ numbers, 0, len(fit)
     seen, free, same = np.zeros((size, len(runs))), np.zeros((size, size)), np.zeros((size, size))
     adjust = np.zeros((size, size))
     for k, run in enumerate(runs):
@@ -330,7 +346,7 @@ def _own_scatter(runs: Sequence[_Run]) -> _Scatter:
         seen[own, k] = adjust[own, own] @ left[own]
         free[own, own], same[own, own] = judged @ judged.T, 1.0
         first = own.stop
-    rows = np.concatenate([np.arange(run.rows.start, run.rows.stop) for run in runs])
+    rows = np.concatenate([run.seen.rows for run in runs])
     return _Scatter(float(left @ left), size - fit.shape[1], rows, seen, free, adjust @ maker, same)
 
 
@@ -340,7 +356,7 @@ def _compared(parts: Sequence[_Seen], scatter: Sequence[_Scatter]) -> _Compared:
     Effects are known and scatter is estimated, so that the variance has the more degrees of freedom the more of it effects
     make (Satterthwaite).
     """
-    apart, moved, weights = _contradictions(parts)
+    apart, moved, weights, rows = _contradictions(parts)
     q, square, freedom = len(apart), float(apart @ apart), sum(one.freedom for one in scatter)
     if not q or not freedom:
         return _Compared(q, square, None, 0.0, 0.0, 1.0)
@@ -348,7 +364,7 @@ def _compared(parts: Sequence[_Seen], scatter: Sequence[_Scatter]) -> _Compared:
     pooled = max(sum(one.square for one in scatter) / freedom, least)
     values, vectors = np.linalg.eigh(moved.T @ moved)
     white = vectors / np.sqrt(np.maximum(values, 0.0) + pooled)
-    by_run, degrees, unjudged = _covariance(weights @ white, scatter, pooled)
+    by_run, degrees, unjudged = _covariance(weights @ white, rows, scatter, pooled)
     covariance = by_run + (moved @ white).T @ (moved @ white)
     total = float(np.trace(covariance))
     statistic = float(np.sum((apart @ white) ** 2)) / total
@@ -358,16 +374,18 @@ def _compared(parts: Sequence[_Seen], scatter: Sequence[_Scatter]) -> _Compared:
     return _Compared(q, square, statistic, directions, degrees, float(fdtrc(directions, degrees, statistic)))
 
 
-def _covariance(weights: Array, scatter: Sequence[_Scatter], pooled: float) -> tuple[Array, float, float]:
-    """Covariance of differences with these weights, shape (n, q), by run; the degrees of freedom of its trace; how unjudged.
+def _covariance(weights: Array, rows: Rows, scatter: Sequence[_Scatter], pooled: float) -> tuple[Array, float, float]:
+    """Covariance of differences with these weights, shape (m, q), of the numbers of runs in `rows`, by run; the degrees of
+    freedom of its trace; how unjudged it is.
 
     A direction in which no other run of its test judges a run has the pooled variance, or that of what is judged if this is
     greater: runs may scatter more in just the traces that count here. The share of such directions is how unjudged it is.
     """
-    size = weights.shape[1]
+    size, at = weights.shape[1], np.empty(rows.max() + 1, dtype=int)
+    at[rows] = np.arange(len(rows))
     covariance, unjudged, trace, square = np.zeros((size, size)), weights.T @ weights, 0.0, 0.0
     for one in scatter:
-        own = weights[one.rows]
+        own = weights[at[one.rows]]
         off = own.T @ one.seen
         covariance += off @ off.T
         unjudged -= own.T @ one.free @ own
@@ -459,11 +477,8 @@ def _wrong_part(tests: _Tests, name: str) -> tuple[float | None, str]:
     return (off[0] if len(off) == 1 else None), (wrong[0] if len(wrong) == 1 else "")
 
 
-def _left_out(name: str, systems: Systems, solution: Solution) -> tuple[float, int]:
+def _left_out(one: Factor, rest: Factor, precision: float) -> tuple[float, int]:
     """RMSE of the readings of a test against the prediction from all others, and how much had to be fitted to it."""
-    labels = solution.labels
-    one = select(merged([run for run in systems.runs if run.test == name]), labels)
-    rest = select(merged([run for run in systems.runs if run.test != name]), labels)
     norms = np.hypot(one.column_norms, rest.column_norms)
     U, sizes, Vt = np.linalg.svd(rest.R / norms)
     rank = _rank(sizes)
@@ -473,5 +488,4 @@ def _left_out(name: str, systems: Systems, solution: Solution) -> tuple[float, i
     own, spread, _ = np.linalg.svd(free, full_matrices=False)
     fitted = int(np.sum(spread > RANK_TOLERANCE * np.linalg.norm(R, 2)))
     left = left - own[:, :fitted] @ (own[:, :fitted].T @ left)
-    precision = next(run.precision for run in systems.runs if run.test == name)
     return float(np.hypot(np.linalg.norm(left), one.residual_norm) / np.sqrt(precision * one.rows)), fitted

@@ -13,7 +13,8 @@ from dataclasses import replace
 import numpy as np
 
 from elastogeo.estimate import RANK_TOLERANCE, Factor
-from elastogeo.identification.systems import Systems, merged, with_precision
+from elastogeo.identification.run_system import with_precision
+from elastogeo.identification.systems import Systems, merged
 
 FLOOR = 1e-5
 """Least standard deviation of a reading as a share of the root mean square of the readings: none is read better."""

@@ -143,7 +143,7 @@ def elastic_among(systems: Systems, retained: Sequence[str]) -> list[str]:
 
 def _geometry(machine: Machine, systems: Systems, retained: Sequence[str]) -> list[str]:
     """Error motions of the moving axes and location errors that are not in the model."""
-    moving = sorted(moving_axes(machine, [run.observations for run in systems.runs]))
+    moving = sorted(moving_axes(machine, [run.spans for run in systems.runs]))
     patterns = [pattern.format(axis=axis) for axis in moving for pattern in _GEOMETRY]
     return [name for name in catalogue(machine) if name not in retained and fits_any(name, (*patterns, *_OFFSETS))]
 

@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from elastogeo.identification.systems import RunSystem, Systems
+from elastogeo.identification.run_system import RunSystem
+from elastogeo.identification.systems import Systems
 from elastogeo.machine import Array
 
 ORDERS = 8
@@ -149,8 +150,8 @@ def shapes_of(
 
 def _projected(run: RunSystem, retained: Sequence[str], block: Array, angular: bool) -> tuple[Array, Integers, float]:
     """Rows `[A | more | y]` on the shapes of one run, the order of each, and the sum of squares of the readings."""
-    basis, orders = _harmonics(run.observations.pose if angular else None, len(run.rows))
-    root = np.ones(len(run.rows)) if run.weights is None else np.sqrt(run.weights)
+    basis, orders = _harmonics(run.observations.pose if angular else None, run.readings)
+    root = np.ones(run.readings) if run.weights is None else np.sqrt(run.weights)
     size = np.linalg.norm(basis, axis=0)
     more = run.without_own(np.column_stack([basis, block])) * root[:, np.newaxis]
     model, reading = run.design_of(retained) * root[:, np.newaxis], run.reading * root

@@ -12,7 +12,8 @@ from elastogeo.errors import DegreesOfFreedomError, RankError
 from elastogeo.estimate import Estimate, Factor, Solution, factor_blocks, merge, solve, solve_by_run
 from elastogeo.identification.fit import Fit, fit_of
 from elastogeo.identification.model_choice.candidates import elastic_among
-from elastogeo.identification.systems import RunSystem, Systems
+from elastogeo.identification.run_system import RunSystem
+from elastogeo.identification.systems import Systems
 from elastogeo.machine import Array
 
 LEAST_LEVELS = 3

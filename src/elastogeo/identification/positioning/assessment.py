@@ -8,8 +8,8 @@ from typing import cast
 import numpy as np
 
 from elastogeo.errors import InputError, UnsupportedError
+from elastogeo.estimate import Influence
 from elastogeo.identification.identification import identify
-from elastogeo.identification.influences import Effect
 from elastogeo.identification.positioning.result import PositioningResults
 from elastogeo.identification.positioning.standard import by_target
 from elastogeo.identification.positioning.uncertainty import straightened, with_uncertainty
@@ -50,7 +50,7 @@ def evaluate_positioning(test: MachineTest) -> PositioningResults:
     reading = np.concatenate([_along_command(run) * run.reading for run in observed])
     cycle = np.repeat(np.arange(1, len(observed) + 1), [len(run) for run in observed])
     joints, refusal = _joints(test)
-    values = with_uncertainty(target, sense, reading, _effects(test, observed), straight)
+    values = with_uncertainty(target, sense, reading, _shifts(test, observed), straight)
     shown = straightened(target, reading) if straight else reading
     found = by_target(target, sense, shown)
     place = np.searchsorted(found.target, target)
@@ -95,9 +95,14 @@ def _along_command(run: Observations) -> float:
     return -1.0 if float((run.nominal - run.nominal.mean()) @ (run.pose - run.pose.mean())) < 0 else 1.0
 
 
-def _effects(test: MachineTest, observed: Sequence[Observations]) -> tuple[Effect, ...]:
-    """The effects of the stated influences on the readings, whatever parameters are asked for."""
-    return effects_of(test, systems_of(test, observed))
+def _shifts(test: MachineTest, observed: Sequence[Observations]) -> list[tuple[Influence, Array]]:
+    """What the stated influences do to the readings, whatever parameters are asked for."""
+    systems = systems_of(test, observed)
+    return [
+        (effect.influence, np.concatenate([effect.shift(run) for run in systems.runs]))
+        for effect in effects_of(test, systems)
+        if effect.shift is not None
+    ]
 
 
 def _levers(test: MachineTest, observed: Sequence[Observations]) -> Mapping[str, float]:

@@ -14,8 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from elastogeo.estimate import Estimate, effective_degrees_of_freedom
-from elastogeo.identification.influences import Effect
+from elastogeo.estimate import Estimate, Influence, effective_degrees_of_freedom
 from elastogeo.identification.positioning.result import Contribution, StandardValue
 from elastogeo.identification.positioning.standard import ByTarget, by_target, standard_values
 from elastogeo.machine import Array
@@ -26,7 +25,7 @@ _STEP = 1e-6
 
 
 def with_uncertainty(
-    target: Array, sense: Array, reading: Array, effects: Sequence[Effect], straight: bool = False
+    target: Array, sense: Array, reading: Array, shifts: Sequence[tuple[Influence, Array]], straight: bool = False
 ) -> Mapping[str, StandardValue]:
     """The values of ISO 230-2, each with its uncertainty.
 
@@ -34,8 +33,8 @@ def with_uncertainty(
     ----------
     target, sense, reading : array, shape (m,)
         As of `by_target`.
-    effects : sequence of Effect
-        Of the stated influences, on the same readings in the same order, run after run.
+    shifts : sequence of (Influence, array), shape (m,) [mm or rad]
+        By how much each stated influence makes these readings too great, per unit of its quantity.
     straight : bool
         Whether a straight line through all readings is taken off first.
     """
@@ -45,7 +44,7 @@ def with_uncertainty(
 
     found = by_target(target, sense, straightened(target, reading) if straight else reading)
     nominal = standard_values(found)
-    known = [_carried(effect, reading, values) for effect in effects if effect.shift is not None]
+    known = [_carried(influence, shift, reading, values) for influence, shift in shifts]
     scatter = _scatter(found, nominal)
     return {name: _value(name, value, scatter.get(name), [one[name] for one in known]) for name, value in nominal.items()}
 
@@ -57,12 +56,13 @@ def straightened(target: Array, reading: Array) -> Array:
     return np.asarray(reading - np.polyval(np.polyfit(target, reading, 1), target))
 
 
-def _carried(effect: Effect, reading: Array, values: Callable[[Array], dict[str, float]]) -> dict[str, Contribution]:
-    size = effect.influence.standard_uncertainty
-    shift = size * np.concatenate(effect.shift or (np.zeros(len(reading)),))
-    above, below = values(reading + shift), values(reading - shift)
-    freedom = effect.influence.degrees_of_freedom
-    return {name: Contribution(effect.influence.label, abs(above[name] - below[name]) / 2, freedom) for name in above}
+def _carried(
+    influence: Influence, shift: Array, reading: Array, values: Callable[[Array], dict[str, float]]
+) -> dict[str, Contribution]:
+    off = influence.standard_uncertainty * shift
+    above, below = values(reading + off), values(reading - off)
+    freedom = influence.degrees_of_freedom
+    return {name: Contribution(influence.label, abs(above[name] - below[name]) / 2, freedom) for name in above}
 
 
 def _scatter(found: ByTarget, nominal: Mapping[str, float]) -> dict[str, Contribution]:

@@ -9,7 +9,8 @@ import numpy as np
 
 from elastogeo.errors import UnsupportedError
 from elastogeo.estimate import huber_weights, solve
-from elastogeo.identification.systems import Systems, merged, reweighted
+from elastogeo.identification.run_system import reweighted
+from elastogeo.identification.systems import Systems, merged
 
 _SETTLED = 1e-9
 _STEPS = 100

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.special import fdtrc
 
 from elastogeo.identification.fit import FALSE_ALARM, HARMONICS, Harmonic
-from elastogeo.identification.systems import RunSystem
+from elastogeo.identification.run_system import RunSystem
 from elastogeo.machine import Array
 
 _FULL = 10.0

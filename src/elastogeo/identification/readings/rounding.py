@@ -12,13 +12,15 @@ where the reading hardly changes along the path, neighbours are rounded alike, a
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 
 from elastogeo.estimate import Influence, minimum_norm
 from elastogeo.identification.influences import Effect
-from elastogeo.identification.systems import RunSystem, Systems, merged
+from elastogeo.identification.run_system import RunSystem
+from elastogeo.identification.systems import Systems, merged
 from elastogeo.machine import Array
 
 ROUNDING = "rounding that repeats share"
@@ -58,16 +60,33 @@ def rounding_effects(systems: Systems, resolution: float | None) -> Iterator[Eff
     if not step:
         return
     values = minimum_norm(merged(systems.runs))
+    model = _Model(values)
     left = {run.name: amplitude for run, amplitude in _dithered_runs(systems.runs, values, step)}
     for k in range(1, HARMONICS + 1):
-        shares = [left.get(run.name, 0.0) ** (k * k) for run in systems.runs]
-        if max(shares) < NOTHING:
+        shares = {run.name: left.get(run.name, 0.0) ** (k * k) for run in systems.runs}
+        if max(shares.values()) < NOTHING:
             return
-        turns = [2 * np.pi * k / step * _modelled(run, values) for run in systems.runs]
         known = Influence(ROUNDING, step / (np.sqrt(2.0) * np.pi * k), "normal")
         for wave in (np.cos, np.sin):
-            shift = tuple(share * wave(turn) for share, turn in zip(shares, turns, strict=True))
-            yield Effect(known, np.zeros(len(shares)), shift)
+            yield Effect(known, np.zeros(len(shares)), partial(_wave, wave, 2 * np.pi * k / step, shares, model))
+
+
+class _Model:
+    """The reading as the model has it, before it was rounded: of the run that was asked for last it is kept."""
+
+    def __init__(self, values: Array) -> None:
+        self._values, self._name, self._reading = values, "", np.zeros(0)
+
+    def __call__(self, run: RunSystem) -> Array:
+        if run.name != self._name:
+            self._name, self._reading = run.name, _recorded(run) - (run.reading - run.design @ self._values)
+        return self._reading
+
+
+def _wave(wave: Callable[[Array], Array], turns: float, shares: Mapping[str, float], model: _Model, run: RunSystem) -> Array:
+    """One wave of the rounding error along a run."""
+    share = shares[run.name]
+    return np.asarray(share * wave(turns * model(run))) if share else np.zeros(run.readings)
 
 
 def _dithered_runs(runs: Sequence[RunSystem], values: Array, step: float) -> Iterator[tuple[RunSystem, float]]:
@@ -100,11 +119,6 @@ def _recorded(run: RunSystem) -> Array:
 def _beside_the_model(run: RunSystem, values: Array) -> Array:
     """What a run has beside the parameters that all runs share: its residuals and its own set-up, shape (m,)."""
     return run.reading - run.design @ values + run.own @ run.set_up(run.factor.labels, values)
-
-
-def _modelled(run: RunSystem, values: Array) -> Array:
-    """The reading as the model has it, before it was rounded, shape (m,)."""
-    return _recorded(run) - (run.reading - run.design @ values)
 
 
 def _repeats(runs: Sequence[RunSystem]) -> list[list[RunSystem]]:

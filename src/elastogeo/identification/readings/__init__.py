@@ -1,0 +1,1 @@
+"""What is looked at reading by reading: outliers, rounding, structure that is left, and what a result shows."""
