@@ -4,7 +4,7 @@ from pathlib import Path
 
 from typer.testing import CliRunner
 
-from elastogeo.cli.app import app, commands
+from elastogeo.cli.app import application, commands
 
 PAGE = Path(__file__).with_name("cli.md")
 INTRODUCTION = """\
@@ -27,7 +27,7 @@ def reference() -> str:
 def section(*command: str) -> str:
     """The help text of one command."""
     as_shown = {"prog_name": "elastogeo", "terminal_width": 78, "catch_exceptions": False}
-    shown = CliRunner(env={"NO_COLOR": "1"}).invoke(app, [*command, "--help"], **as_shown)
+    shown = CliRunner(env={"NO_COLOR": "1"}).invoke(application(), [*command, "--help"], **as_shown)
     title = " ".join(["elastogeo", *command])
     text = "\n".join(part.rstrip() for part in shown.stdout.strip().splitlines())
     return f"## {title}\n\n```text\n{text}\n```\n"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tracemalloc
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from elastogeo.cli.app import app
+from elastogeo.cli.app import application
 from elastogeo.errors import InputError
 from elastogeo.estimate import solve
 from elastogeo.formats import read_campaign, read_machine
@@ -132,6 +133,42 @@ def test_rows_that_are_not_held_are_made_again_as_they_were(three) -> None:
             some = run.holding(["C_YYY", "E_YY1"])
             np.testing.assert_array_equal(some.design_of(["E_YY1"]), held.design_of(["E_YY1"]))
             np.testing.assert_array_equal(some.reading, held.reading)
+
+
+def test_traces_of_several_tests_are_made_again_as_exact(three, together) -> None:
+    systems = systems_of(three)
+    values = together.solution.values
+    assert len(together.traces) == len(systems.runs)
+    for _ in range(2):
+        for run, trace in zip(systems.runs, together.traces, strict=True):
+            assert (trace.run, trace.test, trace.force) == (run.name, run.test, run.force)
+            np.testing.assert_allclose(trace.measured, run.reading, rtol=0, atol=1e-17)
+            np.testing.assert_allclose(trace.predicted, run.design_of(list(together)) @ values, rtol=0, atol=1e-15)
+    assert [trace.run for trace in together.traces[1:3]] == [run.name for run in systems.runs[1:3]]
+    assert together.traces[-1].run == systems.runs[-1].name
+
+
+def test_no_rows_are_held(three) -> None:
+    """Three times the tests: what memory it takes grows by far less than the rows of the others."""
+
+    def longer(run: Run) -> Run:
+        return replace(run, columns={name: np.repeat(values, 50) for name, values in run.columns.items()})
+
+    def most(times: int) -> int:
+        asked = {
+            f"{name}-{k}": replace(test, runs=tuple(map(longer, test.runs)))
+            for name, test in three.items()
+            for k in range(times)
+        }
+        tracemalloc.start()
+        result = identify(asked)
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert len(result.tests) == 3 * times
+        return peak
+
+    readings = 6 * 6 * 60 * 50
+    assert most(3) - most(1) < 8 * readings * 5
 
 
 def test_several_tests_have_no_one_test(together) -> None:
@@ -267,7 +304,7 @@ def planned(tmp_path: Path) -> Path:
 @pytest.mark.parametrize("count", range(1, 8))
 def test_the_rank_grows_with_every_test_through_the_command_line(planned, count) -> None:
     folders = [str(planned / name) for name in list(PLANNED)[:count]]
-    ran = CliRunner().invoke(app, ["explain", *folders, "--planned", "120", "-p", "C_*", "--json"])
+    ran = CliRunner().invoke(application(), ["explain", *folders, "--planned", "120", "-p", "C_*", "--json"])
     assert ran.exit_code == 0, ran.output
     document = json.loads(ran.output)
     assert (document["rank"], document["columns"]) == (RANKS[count - 1], 180)

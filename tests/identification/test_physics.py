@@ -25,7 +25,7 @@ from elastogeo.identification.physics import (
     joint_blocks,
     physically_consistent,
 )
-from elastogeo.identification.reciprocity import ReciprocalSource, reciprocal_sources, reciprocity
+from elastogeo.identification.symmetric_joints import ReciprocalSource, reciprocal_sources, reciprocity
 from elastogeo.machine import Array
 from elastogeo.observe import MachineTest, Observations
 from elastogeo.report import sentence_of

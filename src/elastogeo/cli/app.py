@@ -34,14 +34,32 @@ ORDER = (
 )  # fmt: skip
 """In which the help lists the commands; one that is not here comes last."""
 
-app = typer.Typer(rich_markup_mode=None, help=EXAMPLE, no_args_is_help=True, pretty_exceptions_enable=False)
-
 
 def commands() -> list[Callable[..., Any]]:
     """The commands, as the help lists them: of every file in a wing of this room the function of its name."""
-    found = {module.rpartition(".")[2]: module for module in _files()}
+    found = _named()
     known = {name: place for place, name in enumerate(ORDER)}
-    return [getattr(import_module(found[name]), name) for name in sorted(found, key=lambda n: (known.get(n, len(known)), n))]
+    return [_command(found, name) for name in sorted(found, key=lambda n: (known.get(n, len(known)), n))]
+
+
+def application(asked: str = "") -> typer.Typer:
+    """The command line: with the one command that is asked, if there is one of that name, else with all."""
+    found = _named()
+    app = typer.Typer(rich_markup_mode=None, help=EXAMPLE, no_args_is_help=True, pretty_exceptions_enable=False)
+    app.callback()(_options)
+    for command in [_command(found, asked)] if asked in found else commands():
+        app.command()(command)
+    return app
+
+
+def _named() -> dict[str, str]:
+    """The module of each command."""
+    return {module.rpartition(".")[2]: module for module in _files()}
+
+
+def _command(found: dict[str, str], name: str) -> Callable[..., Any]:
+    command: Callable[..., Any] = getattr(import_module(found[name]), name)
+    return command
 
 
 def _files() -> Iterator[str]:
@@ -51,17 +69,12 @@ def _files() -> Iterator[str]:
             yield from (file.name for file in iter_modules(import_module(wing.name).__path__, f"{wing.name}."))
 
 
-for command in commands():
-    app.command()(command)
-
-
 def _version(wanted: bool) -> None:
     if wanted:
         print(f"elastogeo {VERSION}")
         raise typer.Exit
 
 
-@app.callback()
 def _options(
     _version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")] = False,
 ) -> None:
@@ -72,7 +85,7 @@ def main() -> int:
     """Run the command line; return the exit code."""
     gc.set_threshold(50_000)  # what a command makes lives to its end: looking for garbage takes a tenth of its time
     try:
-        app(standalone_mode=True)
+        application(sys.argv[1] if len(sys.argv) > 1 else "")()
     except SystemExit as end:
         return end.code if isinstance(end.code, int) else 0
     except UnsupportedError as error:

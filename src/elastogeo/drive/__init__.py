@@ -1,38 +1,43 @@
 """Feed drives: motor current -> torque -> force at the joint -> at the tool. Stands on `machine`, `estimate`, `errors`."""
 
-from elastogeo.drive.balance import BalanceFit, Searched, TorqueBalance, free_labels, identify_balance, units_of
-from elastogeo.drive.differentiator import Derivatives, differentiate, gain, smoothed
-from elastogeo.drive.feed_drive import (
-    FeedDrive,
-    current_from_effort,
-    effort_from_current,
-    effort_from_force,
-    force_from_effort,
-)
-from elastogeo.drive.force_agreement import Delay, ForceAgreement, ForceRecord, compare_forces, find_delay
-from elastogeo.drive.known_balance import (
-    KnownBalance,
-    MotorParameter,
-    balance_effort,
-    known_terms,
-    known_torque_balance,
-    motor_parameters,
-)
-from elastogeo.drive.measurement import EVERY_LOG, DriveTest
-from elastogeo.drive.model import PLAIN, Mask, TorqueModel, motion_columns, usable
-from elastogeo.drive.nonlinear import SEARCHABLE, make_search, ranges_of, search_balance, shared_masks
-from elastogeo.drive.records import DriveRecord
-from elastogeo.drive.series import (
-    RigCheck,
-    SetupCompliance,
-    rig_check,
-    setup_compliance,
-    with_rig,
-)
-from elastogeo.drive.standstill import Standstill, standing, standstill, window_of
-from elastogeo.drive.terms import Motion
-from elastogeo.drive.validation import LeftOut, RunScore, Structure, leave_one_run_out, predict, structure
-from elastogeo.drive.virtual_work import joint_forces, tool_force
+from typing import TYPE_CHECKING
+
+from elastogeo.discovery import first_use
+
+if TYPE_CHECKING:
+    from elastogeo.drive.balance import BalanceFit, Searched, TorqueBalance, free_labels, identify_balance, units_of
+    from elastogeo.drive.differentiator import Derivatives, differentiate, gain, smoothed
+    from elastogeo.drive.dwells import Standstill, standing, standstill, window_of
+    from elastogeo.drive.feed_drive import (
+        FeedDrive,
+        current_from_effort,
+        effort_from_current,
+        effort_from_force,
+        force_from_effort,
+    )
+    from elastogeo.drive.force_agreement import Delay, ForceAgreement, ForceRecord, compare_forces, find_delay
+    from elastogeo.drive.known_balance import (
+        KnownBalance,
+        MotorParameter,
+        balance_effort,
+        known_terms,
+        known_torque_balance,
+        motor_parameters,
+    )
+    from elastogeo.drive.measurement import EVERY_LOG, DriveTest
+    from elastogeo.drive.model import PLAIN, Mask, TorqueModel, motion_columns, usable
+    from elastogeo.drive.nonlinear import SEARCHABLE, make_search, ranges_of, search_balance, shared_masks
+    from elastogeo.drive.records import DriveRecord
+    from elastogeo.drive.series import (
+        RigCheck,
+        SetupCompliance,
+        rig_check,
+        setup_compliance,
+        with_rig,
+    )
+    from elastogeo.drive.terms import Motion
+    from elastogeo.drive.validation import LeftOut, RunScore, Structure, leave_one_run_out, predict, structure
+    from elastogeo.drive.virtual_work import joint_forces, tool_force
 
 __all__ = [
     "EVERY_LOG",
@@ -93,3 +98,23 @@ __all__ = [
     "window_of",
     "with_rig",
 ]
+
+__getattr__ = first_use(
+    __name__,
+    {
+        "balance": "BalanceFit Searched TorqueBalance free_labels identify_balance units_of",
+        "differentiator": "Derivatives differentiate gain smoothed",
+        "feed_drive": "FeedDrive current_from_effort effort_from_current effort_from_force force_from_effort",
+        "force_agreement": "Delay ForceAgreement ForceRecord compare_forces find_delay",
+        "known_balance": "KnownBalance MotorParameter balance_effort known_terms known_torque_balance motor_parameters",
+        "measurement": "DriveTest EVERY_LOG",
+        "model": "Mask PLAIN TorqueModel motion_columns usable",
+        "nonlinear": "SEARCHABLE make_search ranges_of search_balance shared_masks",
+        "records": "DriveRecord",
+        "series": "RigCheck SetupCompliance rig_check setup_compliance with_rig",
+        "dwells": "Standstill standing standstill window_of",
+        "terms": "Motion",
+        "validation": "LeftOut RunScore Structure leave_one_run_out predict structure",
+        "virtual_work": "joint_forces tool_force",
+    },
+)

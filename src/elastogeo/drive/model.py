@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from elastogeo.drive.differentiator import smoothed
+from elastogeo.drive.dwells import standstill
 from elastogeo.drive.records import DriveRecord
-from elastogeo.drive.standstill import standstill
 from elastogeo.drive.terms import Motion, Term, term_named
 from elastogeo.errors import InputError
 from elastogeo.machine import Array

@@ -14,7 +14,7 @@ from elastogeo.identification.question import (
     what_reciprocity_buys,
     with_question,
 )
-from elastogeo.identification.reciprocity import Reciprocity
+from elastogeo.identification.symmetric_joints import Reciprocity
 from elastogeo.machine import Point
 from elastogeo.observe import Askable, Campaign, MachineTest, campaign_of, family_of
 from elastogeo.result import Result

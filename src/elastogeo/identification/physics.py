@@ -32,7 +32,7 @@ from elastogeo.estimate import (
     psd_cone,
 )
 from elastogeo.identification.check import Check
-from elastogeo.identification.reciprocity import ReciprocalSource, is_compliance
+from elastogeo.identification.symmetric_joints import ReciprocalSource, is_compliance
 from elastogeo.sources import Source
 
 PHYSICALLY_CONSISTENT = "physically consistent"

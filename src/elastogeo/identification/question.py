@@ -17,7 +17,7 @@ from elastogeo.identification.influences import Effect, Quantity, on_all_runs, s
 from elastogeo.identification.levels import force_levels, force_spread
 from elastogeo.identification.preference import retaining_order
 from elastogeo.identification.readings.rounding import rounding_effects
-from elastogeo.identification.reciprocity import Reciprocity, reciprocity
+from elastogeo.identification.symmetric_joints import Reciprocity, reciprocity
 from elastogeo.identification.systems import Systems, joined, merged, run_systems
 from elastogeo.observe import Askable, Campaign, MachineTest, Observations, ObservedInfluence, campaign_of
 from elastogeo.sources import Source, select_sources

@@ -9,7 +9,8 @@ A new check needs its constant name, its facts and such a function.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import sys
+from collections.abc import Callable, Iterable, Mapping
 from importlib import import_module
 from pkgutil import iter_modules
 from typing import Any
@@ -40,12 +41,28 @@ def sentence_of(check: Check) -> str:
     KeyError
         If no wing says anything of checks of this name.
     """
-    return _sentences()[check.name.rpartition(": ")[2]](check.facts, check.passed)
+    name = check.name.rpartition(": ")[2]
+    for file in _files() if name not in _SAID else ():
+        import_module(file)
+        if name in _SAID:
+            break
+    return _SAID[name](check.facts, check.passed)
 
 
 def _sentences() -> Mapping[str, Sentence]:
-    package = import_module(__name__.rpartition(".")[0])
-    for wing in iter_modules(package.__path__, f"{package.__name__}."):
-        if wing.ispkg and any(file.name == "sentences" for file in iter_modules(import_module(wing.name).__path__)):
-            import_module(f"{wing.name}.sentences")
+    """Those of all wings."""
+    for file in _files():
+        import_module(file)
     return _SAID
+
+
+def _files() -> list[str]:
+    """The files of sentences; first those of wings that are in use, since their checks are most likely asked for."""
+    package = import_module(__name__.rpartition(".")[0])
+    wings = [wing.name for wing in iter_modules(package.__path__, f"{package.__name__}.") if wing.ispkg]
+    wings.sort(key=lambda wing: wing not in sys.modules)
+    return [f"{wing}.sentences" for wing in wings if _has_sentences(import_module(wing).__path__)]
+
+
+def _has_sentences(folder: Iterable[str]) -> bool:
+    return any(file.name == "sentences" for file in iter_modules(folder))

@@ -206,9 +206,9 @@ def view_of(result: object) -> View:
     KeyError
         If no wing makes a view of results of this type.
     """
-    if type(result) not in _VIEWS:
-        for module in _view_files():
-            import_module(module)
+    unread = _view_files(type(result))
+    while type(result) not in _VIEWS and (file := next(unread, None)):
+        import_module(file)
     return _VIEWS[type(result)](result)
 
 
@@ -230,10 +230,12 @@ def attention_sentence(checks: Iterable[Check]) -> str:
     return f"{text[:1].upper()}{text[1:]}."
 
 
-def _view_files() -> Iterator[str]:
-    package = import_module(__name__.rpartition(".")[0])
-    for wing in iter_modules(package.__path__, f"{package.__name__}."):
-        if wing.ispkg:
-            for file in iter_modules(import_module(wing.name).__path__, f"{wing.name}."):
-                if file.name.endswith(("view", "_view")):
-                    yield file.name
+def _view_files(kind: type) -> Iterator[str]:
+    """The files of views; first those of the wing that is called like the wing or the room of this type of result."""
+    package, home = import_module(__name__.rpartition(".")[0]), kind.__module__.split(".")
+    wings = [wing.name for wing in iter_modules(package.__path__, f"{package.__name__}.") if wing.ispkg]
+    places = {wing: home.index(last) for wing in wings if (last := wing.rpartition(".")[2]) in home}
+    for wing in sorted(wings, key=lambda wing: -places.get(wing, -1)):
+        for file in iter_modules(import_module(wing).__path__, f"{wing}."):
+            if file.name.endswith(("view", "_view")):
+                yield file.name

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
 from elastogeo.errors import InputError
-from elastogeo.identification.reciprocity import reciprocal_sources
+from elastogeo.identification.symmetric_joints import reciprocal_sources
 from elastogeo.observe import Campaign, MachineTest
 from elastogeo.sources import Source, catalogue, select_sources
 
