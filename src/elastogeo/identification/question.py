@@ -10,7 +10,7 @@ from typing import Literal, TypedDict, TypeVar
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.estimate import Confounding, confounding
+from elastogeo.estimate import Confounding, Influence, confounding
 from elastogeo.identification.campaigns.precision import weighted
 from elastogeo.identification.campaigns.scopes import Scopes, preferred, scopes_of
 from elastogeo.identification.influences import Effect, Quantity, on_all_runs, stated_effects, together
@@ -19,6 +19,7 @@ from elastogeo.identification.preference import retaining_order
 from elastogeo.identification.readings.rounding import rounding_effects
 from elastogeo.identification.symmetric_joints import Reciprocity, reciprocity
 from elastogeo.identification.systems import Systems, joined, merged, run_systems
+from elastogeo.machine import Array
 from elastogeo.observe import Askable, Campaign, MachineTest, Observations, ObservedInfluence, campaign_of
 from elastogeo.sources import Source, select_sources
 
@@ -221,6 +222,16 @@ def effects_of(one: Askable, systems: Systems) -> tuple[Effect, ...]:
             found.setdefault(quantity, []).append((name, effect))
         rounded += [on_all_runs(effect, name, systems) for effect in rounding_effects(own, test.resolution)]
     return (*(together(quantity, parts, systems) for quantity, parts in found.items()), *rounded)
+
+
+def stated_shifts(test: MachineTest, observations: Sequence[Observations]) -> list[tuple[Influence, Array]]:
+    """What each stated influence adds to the readings of a test, run after run, per unit of its quantity, shape (m,)."""
+    systems = systems_of(test, observations)
+    return [
+        (effect.influence, np.concatenate([effect.shift(run) for run in systems.runs]))
+        for effect in effects_of(test, systems)
+        if effect.shift is not None
+    ]
 
 
 def with_stated(test: MachineTest, observations: Sequence[Observations]) -> Sequence[Observations]:

@@ -57,8 +57,8 @@ def weak_directions(rows: Array) -> int:
 
 
 def _told_apart(seen: Array, asked: Unknowns, tests: Sequence[MachineTest], prefer: Sequence[str]) -> Confounding:
-    observations = [run for test in tests for run in test.observations()[:1]]
-    order = retaining_order(asked.sources, asked.machine, observations, prefer)
+    spans = [np.ptp(run.commands, axis=0) for test in tests for run in test.observations()[:1]]
+    order = retaining_order(asked.sources, asked.machine, spans, prefer)
     triangle = np.zeros((len(asked.sources) + 1,) * 2)
     R = np.linalg.qr(seen / asked.scales, mode="r")
     triangle[: len(R), :-1] = R

@@ -8,13 +8,12 @@ from typing import cast
 import numpy as np
 
 from elastogeo.errors import InputError, UnsupportedError
-from elastogeo.estimate import Influence
 from elastogeo.identification.identification import identify
 from elastogeo.identification.positioning.result import PositioningResults
 from elastogeo.identification.positioning.standard import by_target
 from elastogeo.identification.positioning.uncertainty import straightened, with_uncertainty
 from elastogeo.identification.positioning.verdict import followed, standard_checks
-from elastogeo.identification.question import effects_of, systems_of
+from elastogeo.identification.question import stated_shifts
 from elastogeo.identification.result import Identification
 from elastogeo.machine import COMPONENTS, Array
 from elastogeo.observe import MachineTest, Observations, Positioning, distinct
@@ -50,7 +49,7 @@ def evaluate_positioning(test: MachineTest) -> PositioningResults:
     reading = np.concatenate([_along_command(run) * run.reading for run in observed])
     cycle = np.repeat(np.arange(1, len(observed) + 1), [len(run) for run in observed])
     joints, refusal = _joints(test)
-    values = with_uncertainty(target, sense, reading, _shifts(test, observed), straight)
+    values = with_uncertainty(target, sense, reading, stated_shifts(test, observed), straight)
     shown = straightened(target, reading) if straight else reading
     found = by_target(target, sense, shown)
     place = np.searchsorted(found.target, target)
@@ -93,16 +92,6 @@ def _along_command(run: Observations) -> float:
     if run.nominal is None or len(run) < 2:
         return 1.0
     return -1.0 if float((run.nominal - run.nominal.mean()) @ (run.pose - run.pose.mean())) < 0 else 1.0
-
-
-def _shifts(test: MachineTest, observed: Sequence[Observations]) -> list[tuple[Influence, Array]]:
-    """What the stated influences do to the readings, whatever parameters are asked for."""
-    systems = systems_of(test, observed)
-    return [
-        (effect.influence, np.concatenate([effect.shift(run) for run in systems.runs]))
-        for effect in effects_of(test, systems)
-        if effect.shift is not None
-    ]
 
 
 def _levers(test: MachineTest, observed: Sequence[Observations]) -> Mapping[str, float]:

@@ -14,7 +14,7 @@ from typing import cast
 import numpy as np
 
 from elastogeo.errors import InputError, UnsupportedError
-from elastogeo.identification import Effect, PositioningResults, effects_of, systems_of
+from elastogeo.identification import PositioningResults, stated_shifts
 from elastogeo.machine import COMPONENTS, Array, ErrorTable, motion_of
 from elastogeo.observe import Positioning
 from elastogeo.prediction.compensation.parts import ErrorPart, FoundError, expanded, zero_within
@@ -102,13 +102,8 @@ def _from_zero(readings: Array, target: Array, zero: float) -> Array:
 
 def _shifts(found: PositioningResults) -> list[tuple[Array, float]]:
     """What each stated influence does to the readings, by its standard uncertainty, and the degrees of freedom of that."""
-    observed = found.test.observations()
-    effects: Sequence[Effect] = effects_of(found.test, systems_of(found.test, observed))
-    return [
-        (one.influence.standard_uncertainty * np.concatenate(one.shift), one.influence.degrees_of_freedom)
-        for one in effects
-        if one.shift is not None
-    ]
+    shifts = stated_shifts(found.test, found.test.observations())
+    return [(one.standard_uncertainty * shift, one.degrees_of_freedom) for one, shift in shifts]
 
 
 Places = np.ndarray[tuple[int, ...], np.dtype[np.intp]]
