@@ -171,6 +171,22 @@ def test_no_rows_are_held(three) -> None:
     assert most(3) - most(1) < 8 * readings * 5
 
 
+def test_simulations_about_one_centre_are_of_one_machine() -> None:
+    """Bars at two places, a positioning error of the second degree: its value is about one centre, or of two machines."""
+    truth, angle = {"E_XX1": 3e-5, "E_XX2": 2e-7}, 2 * np.pi * np.arange(72) / 72
+    runs = tuple(Run(f"{k}", {"angle": angle, "radial": np.zeros(72)}) for k in range(3))
+    machine, asked = machine_of("wFYXZt"), Question(("E_XX1", "E_XX2"))
+    tests = {
+        f"at-{x:g}": MachineTest("bar", machine, BallBar(Circle(100.0, centre={"X": x}), feed=20.0), runs, asked)
+        for x in (-100.0, 200.0)
+    }
+    middle = {"X": 50.0}
+    one = identify({name: simulate(test, truth, exact=False, centre=middle) for name, test in tests.items()})
+    assert {name: one[name].value for name in truth} == pytest.approx(truth, rel=1e-9)
+    apart = identify({name: simulate(test, truth, exact=False) for name, test in tests.items()})
+    assert abs(apart["E_XX2"].value - truth["E_XX2"]) > 0.1 * truth["E_XX2"]
+
+
 def test_several_tests_have_no_one_test(together) -> None:
     with pytest.raises(InputError, match="has 3 tests \\(xy, yz, zx\\), and this is asked of one test"):
         _ = together.test

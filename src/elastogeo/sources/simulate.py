@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from elastogeo.machine import Array, Machine
+from elastogeo.machine import Array, AxisCommands, Machine
 from elastogeo.observe import Imperfection, MachineTest, Observations
 from elastogeo.sources.catalogue import select_sources
 from elastogeo.sources.response import exact_response, linear_response
@@ -31,6 +31,7 @@ def simulate(
     imperfection: Imperfection | None = None,
     seed: int = 0,
     exact: bool = True,
+    centre: AxisCommands | None = None,
 ) -> MachineTest:
     """The test with simulated readings in its runs, in the order in which they stand.
 
@@ -46,6 +47,10 @@ def simulate(
         Of the random numbers.
     exact : bool
         By products of transforms, or to first order.
+    centre : mapping of str to float, optional [mm, rad]
+        Axis commands from which the polynomials of the true values count; of an axis not named, and by default, those of the
+        test's own centre. **Tests with centres of their own are of one machine only with the same centre here**, where a
+        true value is of the second degree or higher, or changes along the axis.
 
     Returns
     -------
@@ -56,8 +61,12 @@ def simulate(
     truth = parameter_values(test.machine, values)
     response = exact_response if exact else linear_response
 
+    given = {test.machine.index(axis): value for axis, value in (centre or {}).items()}
+
     def respond(observations: Observations) -> Array:
-        return response(truth, test.machine, replace(observations, weight=test.workpiece))
+        about = observations.centre.copy()
+        about[list(given)] = list(given.values())
+        return response(truth, test.machine, replace(observations, weight=test.workpiece, centre=about))
 
     instrument = imperfection or Imperfection()
     made = (test.setup.simulated(test.machine, run, respond, instrument, random) for run in test.runs)

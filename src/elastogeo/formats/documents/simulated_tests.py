@@ -41,7 +41,7 @@ def simulate(path: str | Path, simulation: str | Path | Simulation | None = None
         simulation = read_test_document(path)[0].with_name(SIMULATION)
     truth = simulation if isinstance(simulation, Simulation) else read_simulation(simulation)
     planned = read_test(path, poses_of(truth), truth.setup)
-    test = simulated(planned, truth.values, truth.imperfection, truth.seed, truth.exact)
+    test = simulated(planned, truth.values, truth.imperfection, truth.seed, truth.exact, truth.centre)
     if write:
         write_runs(path, test, truth.seed)
     return test

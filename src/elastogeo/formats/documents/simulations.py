@@ -19,7 +19,7 @@ from elastogeo.formats.text.table import Table
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.formats.text.units import dimensions_of, from_internal
 from elastogeo.formats.text.whole_files import write_whole
-from elastogeo.machine import Angle, Array
+from elastogeo.machine import Angle, Array, AxisCommands
 from elastogeo.observe import Imperfection, MachineTest, Run
 
 _FILE_UNIT = {"angle": "deg", "length": "um", "time": "s", "current": "A", "force": "N"}
@@ -48,6 +48,9 @@ class Simulation:
     imperfection : Imperfection
     setup : mapping of str to any
         Entries of the test's table `setup` that are otherwise in truth: the friction of a drive, the length of a bar.
+    centre : mapping of str to float [mm, rad]
+        Axis commands from which polynomials of the true values count, if not from the test's own centre: the same in all
+        tests of one simulated machine.
     """
 
     schema: str
@@ -59,6 +62,7 @@ class Simulation:
     exact: bool = True
     imperfection: Imperfection = field(default_factory=Imperfection)
     setup: Mapping[str, Any] = field(default_factory=dict)
+    centre: AxisCommands = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Refuse a simulation of nothing."""
