@@ -291,7 +291,8 @@ __getattr__ = first_use(
         "positioning": "ByTarget Contribution PositioningResults "
         "StandardValue by_target evaluate_positioning standard_values",
         "preference": "moving_axes retaining_order",
-        "question": "Asked confounding_of effects_of sources_of stated_shifts systems_of what_reciprocity_buys with_question",
+        "question": "Asked confounding_of effects_of sources_of stated_shifts systems_of "
+        "what_reciprocity_buys with_question",
         "readings.shared_structure": "shared_harmonic",
         "symmetric_joints": "Reciprocity is_compliance reciprocal_sources reciprocity",
         "result": "Identification Level Local Parameter Pattern Response Trace",
