@@ -11,13 +11,13 @@ from elastogeo.machine import Joint, Machine, parse_topology
 from elastogeo.observe import BallBar, Circle, MachineTest, Question, Run
 from elastogeo.prediction import functionals, virtual_observations
 from elastogeo.sources import select_sources
-from tests.prediction.positioned_axes import axis_test
+from tests.prediction.positioned_axes import TARGETS, axis_test
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 GEOMETRY = {"E_XX1": 3e-5, "E_YX2": 8e-8, "E_XY2": -6e-8, "E_C(0X)Y": 4e-5, "B_XX": 0.006, "B_YX": 0.003, "E_YY1": -2e-5}
 
 
-def circle_test(asked=tuple(GEOMETRY), noise=1e-4, radius=150.0, repeats=3):
+def circle_test(asked=tuple(GEOMETRY), noise=1e-4, radius=150.0, repeats=3, truth=GEOMETRY, centre=None):
     """An unloaded ball bar whose readings are the columns of the truth, forth and back."""
     random = np.random.default_rng(2)
     topology = parse_topology("wFXYZt")
@@ -28,11 +28,13 @@ def circle_test(asked=tuple(GEOMETRY), noise=1e-4, radius=150.0, repeats=3):
         for sense in (1, -1)
         for k in range(1, repeats + 1)
     )
-    blank = MachineTest("circle", machine, BallBar(Circle(radius), feed=1000 / 60), runs, Question(tuple(asked)))
-    sources = select_sources(machine, list(GEOMETRY))
+    blank = MachineTest(
+        "circle", machine, BallBar(Circle(radius, centre=centre or {}), feed=1000 / 60), runs, Question(tuple(asked))
+    )
+    sources = select_sources(machine, list(truth))
     read = []
     for run, seen in zip(runs, blank.observations(), strict=True):
-        true = functionals(sources, machine, seen) @ list(GEOMETRY.values())
+        true = functionals(sources, machine, seen) @ list(truth.values())
         read.append(replace(run, columns={"angle": angle, "radial": true + random.normal(0, noise, len(angle))}))
     return replace(blank, runs=tuple(read))
 
@@ -83,10 +85,33 @@ def test_compliance_is_in_no_table():
     assert used | {name for out in found.left_out for name in out.names} <= set(result.confounding.labels)
 
 
-def test_one_error_from_two_results_is_refused():
-    test = axis_test(lambda p, s: 3e-5 * p - 0.003 * s)
-    with pytest.raises(eg.InputError, match="two results are of E_XX"):
-        eg.compensate(eg.identify(test), eg.evaluate_positioning(test))
+def test_where_targets_and_parameters_say_an_error_the_targets_count():
+    """A positioning test of X beside a circle: E_XX by its targets, all else by the circle's parameters."""
+    test = replace(axis_test(lambda p, s: 3e-5 * p - 0.003 * s, topology="wFXYZt"), machine=circle_test().machine)
+    both = eg.compensate(eg.identify(circle_test()), eg.evaluate_positioning(test), control="csv")
+    assert both["E_XX"].error.position == pytest.approx(TARGETS)
+    assert both["E_YX"].error.position[[0, -1]] == pytest.approx([-150.0, 150.0], abs=1e-6)
+    with pytest.raises(eg.InputError, match="two results are of E_XX; give the one"):
+        eg.compensate(eg.identify(test), eg.identify(test))
+
+
+def test_what_two_axes_cause_together_stays_and_is_said():
+    """An angle of X turns what Y moves: with E_CX1 the deviation along x grows with x times y, which no table of X or of Y
+    holds. Circles at two places tell it; it is said of the volume, and is exactly that product. One circle does not."""
+    truth = {**GEOMETRY, "E_CX1": 2e-7}
+    places = {"left": {"X": -100.0}, "right": {"X": 100.0, "Y": 80.0}, "near": {"Y": -90.0}}
+    tests = {
+        name: circle_test(truth=truth, asked=tuple(truth), noise=1e-6, centre=centre) for name, centre in places.items()
+    }
+    volume = eg.compensate(eg.identify(tests), control="csv").volume
+    assert volume.components == ("X", "Y")
+    assert volume.axes == ("X", "Y")
+    assert volume.before > 0.006
+    assert volume.after == pytest.approx(2e-7 * 250 * 240, rel=0.05)  # the farthest pose from the zero in x, and in y
+    assert volume.bound > volume.after
+    assert eg.compensate(eg.identify(tests["left"]), control="csv").volume is None
+    plain = eg.compensate(eg.identify(circle_test()), control="csv").volume
+    assert plain.after < 0.02 * plain.before
 
 
 def test_what_the_tables_leave_over_the_plane_is_predicted_by_the_same_parameters():

@@ -73,15 +73,18 @@ def compensate(
 
 
 def _results(tests: list[Path], parameters: list[str] | None) -> list[Any]:
-    """What the tests say: of positioning tests each for itself, of others and of parameters together."""
-    read = [eg.read_test(test) for test in tests] if not parameters and not _is_campaign(tests) else []
-    if read and all(test.instrument == "positioning" for test in read):
-        return [eg.evaluate_positioning(test) for test in read]
-    return [eg.identify(eg.read_campaign(tests), parameters=parameters)]
+    """What the tests say: positioning tests each for itself, all others together; with parameters, all together."""
+    if parameters:
+        return [eg.identify(eg.read_campaign(tests), parameters=parameters)]
+    single = {path: eg.read_test(path) for path in tests if not _is_campaign(path)}
+    positioned = [test for test in single.values() if test.instrument == "positioning"]
+    others = [path for path in tests if path not in single or single[path].instrument != "positioning"]
+    together = [eg.identify(eg.read_campaign(others))] if others else []
+    return [*map(eg.evaluate_positioning, positioned), *together]
 
 
-def _is_campaign(tests: list[Path]) -> bool:
-    return any(path.name == "campaign.toml" or (path / "campaign.toml").exists() for path in tests)
+def _is_campaign(path: Path) -> bool:
+    return path.name == "campaign.toml" or (path / "campaign.toml").exists()
 
 
 def _pairs(given: list[str] | None, option: str, example: str) -> dict[str, str]:

@@ -5,6 +5,7 @@ Stands on the files of `prediction`, and on its wing `paths`: a corrected progra
 
 from elastogeo.prediction.compensation.along_path import compensate_path
 from elastogeo.prediction.compensation.compensate import compensate
+from elastogeo.prediction.compensation.in_volume import InVolume
 from elastogeo.prediction.compensation.parts import ErrorPart, FoundError
 from elastogeo.prediction.compensation.result import CompensatedError, Compensation, LeftOut, PathCompensation
 
@@ -13,6 +14,7 @@ __all__ = [
     "Compensation",
     "ErrorPart",
     "FoundError",
+    "InVolume",
     "LeftOut",
     "PathCompensation",
     "compensate",

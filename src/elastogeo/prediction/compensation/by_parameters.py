@@ -51,7 +51,7 @@ def found_by_parameters(result: Identification, zero_at: Mapping[str, float] | N
         If `zero_at` is outside of where the tests moved the axis.
     """
     knowledge = knowledge_of(result)
-    spans = _spans(result)
+    spans = tested_spans(result)
     found: list[FoundError] = []
     for axis, (low, high) in spans.items():
         if high > low:
@@ -60,7 +60,7 @@ def found_by_parameters(result: Identification, zero_at: Mapping[str, float] | N
     return tuple(found)
 
 
-def _spans(result: Identification) -> dict[str, tuple[float, float]]:
+def tested_spans(result: Identification) -> dict[str, tuple[float, float]]:
     """Through which positions the tests moved each axis."""
     commands = np.vstack([run.commands for runs in result.campaign.observations().values() for run in runs])
     axes = result.campaign.machine.axes
@@ -98,17 +98,30 @@ def _asked(knowledge: Knowledge, axis: str, component: str, position: Array, zer
 
 def _rows(knowledge: Knowledge, axis: str, component: str, position: Array, sense: float) -> Array:
     """What the deviation asks of the parameters as one axis comes to positions in a direction, shape (k, p)."""
-    machine = knowledge.machine
+    moving = knowledge.machine.index(axis)
     commands = np.tile(knowledge.centre, (len(position), 1))
-    commands[:, machine.index(axis)] = position
-    direction = np.zeros((len(position), 6))
-    joint = _moved_by(machine, axis, component)
-    part = slice(3, 6) if joint.is_rotary else slice(0, 3)
-    direction[:, part] = loop_frames(machine, commands).joints[joint.name].location.rotation[:, :, joint.direction]
+    commands[:, moving] = position
     senses = np.zeros_like(commands)
-    senses[:, machine.index(axis)] = sense
-    virtual = virtual_observations(machine, commands, direction, np.zeros((1, 6)))
-    return knowledge.rows(replace(virtual, sense=senses))
+    senses[:, moving] = sense
+    return deviation_rows(knowledge, commands, senses, _moved_by(knowledge.machine, axis, component))
+
+
+def deviation_rows(knowledge: Knowledge, commands: Array, sense: Array, joint: Joint) -> Array:
+    """What the deviation along (or about) the motion of a joint asks of the parameters, shape (k, p).
+
+    Parameters
+    ----------
+    knowledge : Knowledge
+    commands, sense : array, shape (k, n)
+        Poses, and from which side each axis came.
+    joint : Joint
+    """
+    direction = np.zeros((len(commands), 6))
+    part = slice(3, 6) if joint.is_rotary else slice(0, 3)
+    frames = loop_frames(knowledge.machine, commands)
+    direction[:, part] = frames.joints[joint.name].location.rotation[:, :, joint.direction]
+    virtual = virtual_observations(knowledge.machine, commands, direction, np.zeros((1, 6)))
+    return knowledge.rows(replace(virtual, sense=sense))
 
 
 def _moved_by(machine: Machine, axis: str, component: str) -> Joint:

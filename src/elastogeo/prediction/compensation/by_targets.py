@@ -61,7 +61,7 @@ def found_by_targets(found: PositioningResults, zero_at: float | None = None) ->
     if len(sides) == 1:
         value, doubt = np.repeat(value, 2, axis=1), np.repeat(doubt, 2, axis=1)
     unknown = () if len(sides) == 2 else (f"B_{component}{found.axis}",)
-    return FoundError(ErrorTable(found.axis, component, target, value, doubt), parts, zero, unknown)
+    return FoundError(ErrorTable(found.axis, component, target, value, doubt), parts, zero, unknown, by_target=True)
 
 
 def _component(found: PositioningResults) -> tuple[str, float]:

@@ -7,9 +7,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from elastogeo.errors import InputError
 from elastogeo.formats import CompensationFormat, compensation_format, compensation_text, read_back
 from elastogeo.identification import Identification, PositioningResults
+from elastogeo.machine import ErrorTable
 from elastogeo.observe import Campaign, campaign_of
 from elastogeo.prediction.compensation.by_parameters import found_by_parameters
 from elastogeo.prediction.compensation.by_targets import found_by_targets
+from elastogeo.prediction.compensation.in_volume import InVolume, in_volume
 from elastogeo.prediction.compensation.parts import ErrorPart, FoundError
 from elastogeo.prediction.compensation.result import CompensatedError, Compensation, LeftOut
 from elastogeo.prediction.compensation.verdict import checks
@@ -30,8 +32,8 @@ def compensate(
     Parameters
     ----------
     *results : PositioningResults or Identification
-        Of one machine; each error from one of them. Of a positioning test the means by target count, of an identification
-        the parameters.
+        Of one machine. Of a positioning test the means by target count, of an identification the parameters; where both have
+        an error, the targets.
     control : str
         `linuxcnc`, `sinumerik-lec`, `sinumerik-cec`, `heidenhain`, `fanuc`, `isg`, `csv`.
     settings : mapping of str to str, optional
@@ -46,7 +48,7 @@ def compensate(
     """
     form = compensation_format(control)
     values = form.with_defaults(settings or {})
-    found = [error for one in results for error in _found(one, zero_at or {})]
+    found = _each_once([error for one in results for error in _found(one, zero_at or {})])
     campaign = _campaign(results, found)
     left = [out for one in found for out in _left_out(one, form)]
     chosen = {
@@ -63,6 +65,7 @@ def compensate(
         errors=errors,
         left_out=tuple(left),
         files=files,
+        volume=_volume(results, applied, found),
         verdict=checks(errors, left, form.sign_is_public),
     )
 
@@ -71,6 +74,20 @@ def _found(result: PositioningResults | Identification, zero_at: Mapping[str, fl
     if isinstance(result, Identification):
         return found_by_parameters(result, zero_at)
     return (found_by_targets(result, zero_at.get(result.axis)),)
+
+
+def _volume(
+    results: Sequence[PositioningResults | Identification], applied: Mapping[str, ErrorTable], found: Sequence[FoundError]
+) -> InVolume | None:
+    identified = [one for one in results if isinstance(one, Identification)]
+    zero = {one.table.axis: one.zero_at for one in found}
+    return in_volume(identified[0], applied, zero) if len(identified) == 1 and applied else None
+
+
+def _each_once(found: Sequence[FoundError]) -> list[FoundError]:
+    """Without what parameters say of an error that was read at targets."""
+    by_target = {one.table.name for one in found if one.by_target}
+    return [one for one in found if one.by_target or one.table.name not in by_target]
 
 
 def _campaign(results: Sequence[PositioningResults | Identification], found: Sequence[FoundError]) -> Campaign:

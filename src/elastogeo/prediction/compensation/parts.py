@@ -58,12 +58,15 @@ class FoundError(ByValue):
         Position at which the mean of both directions counts as zero.
     unknown : tuple of str
         What belongs to it and was not determined.
+    by_target : bool
+        Whether it was read at targets; if not, it follows from parameters.
     """
 
     table: ErrorTable
     parts: tuple[ErrorPart, ...]
     zero_at: float
     unknown: tuple[str, ...] = ()
+    by_target: bool = False
 
     def certain(self) -> ErrorTable | None:
         """The table of those parts whose uncertainty allows it; None if there are none."""

@@ -14,6 +14,7 @@ from elastogeo.formats import write_whole
 from elastogeo.identification import Check
 from elastogeo.machine import Array, ErrorTable, Program
 from elastogeo.observe import Campaign
+from elastogeo.prediction.compensation.in_volume import InVolume
 from elastogeo.prediction.compensation.parts import FoundError
 from elastogeo.prediction.paths import PathPrediction
 from elastogeo.result import Result
@@ -172,6 +173,8 @@ class Compensation(Result):
     left_out : tuple of LeftOut
     files : mapping of str to bytes
         Content by file name.
+    volume : InVolume or None
+        What the tables of all axes leave within the travel of the tests; None of positioning tests, and of one axis.
     verdict : tuple of Check
     """
 
@@ -182,6 +185,7 @@ class Compensation(Result):
     errors: tuple[CompensatedError, ...]
     left_out: tuple[LeftOut, ...]
     files: Mapping[str, bytes]
+    volume: InVolume | None
     verdict: tuple[Check, ...]
 
     def __getitem__(self, name: str) -> CompensatedError:

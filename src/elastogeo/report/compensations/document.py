@@ -7,6 +7,7 @@ errors : [{name, axis, component, unit, position_unit, zero_at, greatest_before,
     points : [{position, direction, before, uncertainty, correction, after}]; all deviations are actual less nominal;
     `uncertainty` is expanded, for 95 %, and the same before and after; `correction` is what the control adds to the command
 left_out : [{names, table, reason, size, uncertainty, why}]
+volume : {components, axes, poses, before_um, after_um, at_most_after_um} over the travel of the tests, or null
 files : {name: {bytes, text}}
 verdict : as of every document
 """
@@ -17,9 +18,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from elastogeo.machine import SIDES
-from elastogeo.prediction.compensation import CompensatedError, Compensation
+from elastogeo.prediction.compensation import CompensatedError, Compensation, InVolume
 from elastogeo.report.compensations.scale import scale_of
-from elastogeo.report.document import document, tested_together, verdict_entries
+from elastogeo.report.document import document, in_um, tested_together, verdict_entries
 
 COMPENSATION_SCHEMA = "elastogeo.compensation/1"
 _KEYS = {"µm": "um", "″": "arcsec", "mm": "mm", "°": "deg"}
@@ -46,10 +47,21 @@ def compensation_json(found: Compensation) -> dict[str, Any]:
                 }
                 for out in found.left_out
             ],
+            "volume": None if found.volume is None else _volume(found.volume),
             "files": {name: {"bytes": len(data), "text": data.decode("utf-8")} for name, data in found.files.items()},
             "verdict": verdict_entries(found.verdict),
         },
     )
+
+
+def _volume(found: InVolume) -> dict[str, Any]:
+    sizes = {"before_um": found.before, "after_um": found.after, "at_most_after_um": found.bound}
+    return {
+        "components": found.components,
+        "axes": found.axes,
+        "poses": found.poses,
+        **{name: in_um(size) for name, size in sizes.items()},
+    }
 
 
 def _error(one: CompensatedError) -> dict[str, Any]:

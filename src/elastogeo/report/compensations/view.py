@@ -108,6 +108,14 @@ def _left(out: LeftOut) -> tuple[str, str, str]:
 
 
 def _notes(found: Compensation) -> Iterator[str]:
+    if found.volume is not None:
+        whole = found.volume
+        before, after, bound = (said_size(size, False) for size in (whole.before, whole.after, whole.bound))
+        yield (
+            f"At {whole.poses} poses within the travel of the tests ({', '.join(whole.axes)} together) the deviation along "
+            f"{', '.join(whole.components)} falls from {before} to {after}, at most {bound}: what two axes cause together "
+            f"is in no table and stays."
+        )
     yield (
         "Deviations are actual less nominal. What is expected after is what was found less what the control makes of these "
         "files; its interval is that of what was found, so a test after is to lie in it."
