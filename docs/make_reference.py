@@ -94,6 +94,7 @@ def _signature(found: object) -> str:
     if isinstance(found, type) and "__init__" not in vars(found):
         return ""
     text = re.sub(r"(: |-> )'([^']*)'", r"\1\2", str(inspect.signature(found)))
+    text = re.sub(r"<function (\w+) at 0x[0-9a-f]+>", r"\1", text)  # a default that is a function, without its address
     return textwrap.fill(text, 110, subsequent_indent="    ") if len(text) > 110 else text
 
 
