@@ -20,6 +20,7 @@ from elastogeo.errors import UnsupportedError
 from elastogeo.identification import reciprocal_sources
 from elastogeo.machine import Array, Machine
 from elastogeo.observe import MachineTest, Observations
+from elastogeo.planning.made import at_the_same_poses
 from elastogeo.planning.noise import ReadingNoise
 from elastogeo.prediction import compliance_scales
 from elastogeo.sources import Source, design_rows, select_sources
@@ -30,8 +31,8 @@ SAME_POSE = 1e-6
 TOLD = 1e-7
 """Directions that a test tells this much less of than of its best one are rounding error."""
 
-SET_UP = ("E_[XYZ]t0", "E_[XYZ]w0", "E_R0")
-"""What wanders from run to run."""
+SET_UP = ("E_[XYZ]t0", "E_R0")
+"""What wanders from run to run: where one ball or probe sits relative to the other, and the length of a bar or a zero."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,7 +98,7 @@ def whitened(tests: Sequence[MachineTest], asked: Unknowns, noise: ReadingNoise)
     -------
     list of array, shape (q, p)
     """
-    return rows_of([test.observations() for test in tests], asked, noise)
+    return rows_of([at_the_same_poses(test) for test in tests], asked, noise)
 
 
 def rows_of(observed: Sequence[Sequence[Observations]], asked: Unknowns, noise: ReadingNoise) -> list[Array]:

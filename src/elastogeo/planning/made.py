@@ -1,4 +1,4 @@
-"""Tests that were made already, as a plan sees them: at a few poses, the same for all runs of a test."""
+"""Tests as a plan sees them: at a few poses, the same for all runs of a test."""
 
 from __future__ import annotations
 
@@ -11,6 +11,18 @@ from elastogeo.machine import Array
 from elastogeo.observe import MachineTest, Observations
 
 _TURN = 2 * np.pi
+
+PLANNED_READINGS = 36
+"""Of a turn, where a planned test has more of its own."""
+
+
+def at_the_same_poses(test: MachineTest) -> tuple[Observations, ...]:
+    """The observations of a planned test: as they are where all runs stand at the same poses, else as those of one made."""
+    observed = test.observations()
+    first = observed[0].commands
+    if all(run.commands.shape == first.shape and np.array_equal(run.commands, first) for run in observed[1:]):
+        return observed
+    return at_planned_poses(test, PLANNED_READINGS) if test.setup.pose_quantity == "angle" else observed
 
 
 def at_planned_poses(test: MachineTest, readings: int) -> tuple[Observations, ...]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from elastogeo.errors import InputError
 from elastogeo.machine import Feed, Forces, Lengths, Machine, Point
+from elastogeo.observe import Setup
 from elastogeo.planning.offers.clearance import Clearance
 
 LEAST_READINGS = 8
@@ -38,6 +39,10 @@ class Means:
     turning : bool
         Whether rotary axes may move within a test.
     clearance : Clearance
+    engagements : tuple of float [mm]
+        Of a roller in a ball.
+    devices : tuple of Setup
+        Set-ups of instruments that are known from tests: a ball-roller's with its drives.
     """
 
     machine: Machine
@@ -49,6 +54,8 @@ class Means:
     rotary: bool = True
     turning: bool = True
     clearance: Clearance = field(default_factory=Clearance)
+    engagements: Lengths = (0.08, 0.2)
+    devices: tuple[Setup, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse what no test can be planned with."""
