@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import inf
 
@@ -41,8 +42,8 @@ class Means:
     clearance : Clearance
     engagements : tuple of float [mm]
         Of a roller in a ball.
-    devices : tuple of Setup
-        Set-ups of instruments that are known from tests: a ball-roller's with its drives.
+    devices : mapping of str to Setup
+        By instrument, set-ups that are known from tests: a ball-roller's with its drives.
     """
 
     machine: Machine
@@ -55,7 +56,7 @@ class Means:
     turning: bool = True
     clearance: Clearance = field(default_factory=Clearance)
     engagements: Lengths = (0.08, 0.2)
-    devices: tuple[Setup, ...] = ()
+    devices: Mapping[str, Setup] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Refuse what no test can be planned with."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 
@@ -17,6 +18,8 @@ from elastogeo.planning.offers.means import Means, minutes
 from elastogeo.planning.offers.proposal import Draft, proposes
 from elastogeo.sources import linear_response
 
+INSTRUMENT = "ball-roller"
+
 READINGS = 400
 """Samples of a planned run: enough for the low-pass of velocity and acceleration."""
 
@@ -24,7 +27,7 @@ SPAN = np.deg2rad(385.0)
 """A little more than a turn: the ends are lost to the low-pass."""
 
 
-@proposes("ball-roller")
+@proposes(INSTRUMENT)
 def presses(means: Means, random: np.random.Generator) -> Iterator[Draft]:
     """The device of a ball-roller test at random places, at every engagement.
 
@@ -33,11 +36,11 @@ def presses(means: Means, random: np.random.Generator) -> Iterator[Draft]:
     InputError
         If no test says what the drives are.
     """
-    device = next((setup for setup in means.devices if isinstance(setup, BallRoller)), None)
-    if device is None:
+    if INSTRUMENT not in means.devices:
         raise InputError(
             "a ball-roller test is planned with the drives of one that is there; name its folder among those made"
         )
+    device = cast(BallRoller, means.devices[INSTRUMENT])
     while True:
         place = means.somewhere(random, device.circle.radius)
         rotary = means.turned(random) if means.rotary and random.random() < 1 / 2 else {}
