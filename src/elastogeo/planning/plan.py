@@ -103,9 +103,9 @@ def plan(
     _check(tests, minutes, goal)
     read, campaign = noise or ReadingNoise(), None if made is None else campaign_of(made)
     progress = progress or _silent
-    means = (
-        means if campaign is None else replace(means, devices=(*means.devices, *(t.setup for t in campaign.tests.values())))
-    )
+    if campaign is not None:
+        known = {test.instrument: test.setup for test in campaign.tests.values()}
+        means = replace(means, devices=known | dict(means.devices))
     progress("drawing tests that fit into the travel")
     offered = tuple(chosen_from) or candidates(means, instruments, count, seed)
     progress(f"working out what {len(offered)} tests would tell")

@@ -14,7 +14,7 @@ def verdict_of(
     """Whether the plan does what it is for: the checks of its goal."""
     if goal == "parameters" and asked:
         return (_known_alone(asked), _surely(asked))
-    weakness = Check("no direction weak", weak == 0, {"weak": weak, "rank": rank})
+    weakness = Check("all directions strong", weak == 0, {"weak": weak, "rank": rank})
     return (_workspace(tools), weakness) if goal == "workspace" else (weakness,)
 
 

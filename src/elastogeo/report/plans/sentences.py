@@ -28,8 +28,8 @@ def workspace_supported(facts: Facts, passed: bool | None) -> str:
     return f"The compliance at {tools} will be supported in {100 * facts['share']:.0f} % of the volume. {needed}"
 
 
-@says("no direction weak")
-def no_direction_weak(facts: Facts, passed: bool | None) -> str:
+@says("all directions strong")
+def all_directions_strong(facts: Facts, passed: bool | None) -> str:
     """Whether rank is knowledge."""
     if passed:
         return f"All {facts['rank']} combinations will be known better than a parameter's expected size."
