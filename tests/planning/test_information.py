@@ -150,9 +150,9 @@ def test_ball_roller_tests_are_planned_with_the_drives_of_one_that_is_there() ->
     test = eg.read_test("examples/ball-roller")
     with pytest.raises(InputError, match="planned with the drives of one that is there; name its folder"):
         candidates(Means(test.machine), ["ball-roller"], 2)
-    means = Means(test.machine, devices=(test.setup,))
-    drawn = candidates(means, ["ball-roller"], 2)
+    means = Means(test.machine, devices={"ball-roller": test.setup})
+    drawn = candidates(means, ["ball-roller"], 1)
     rows = whitened([one.test for one in drawn], unknowns(test.machine), NOISE)
-    assert [len(own) for own in rows] == [3, 3]  # force and reading along one line, lever along it: b^T C b of a plane
+    assert [len(own) for own in rows] == [3]  # force and reading along one line, lever along it: b^T C b of a plane
     forces = [run.force for run in drawn[0].test.observations()]
     assert forces[1] > 2 * forces[0] > 0
