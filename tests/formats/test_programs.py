@@ -74,6 +74,7 @@ def evenly(commands: Array) -> Array:
 @pytest.mark.parametrize("flavour", FLAVOURS)
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_every_flavour_gives_the_path_back_that_was_written(flavour: str, seed: int) -> None:
+    chord = 2e-4 if flavour == "heidenhain" else 0.0  # circles out of XY are lines there
     program = Program("Path and back", list(blocks(seed)))
     text = program_text(program, flavour, Writing(decimals=6))
     again = read_program_bytes(text.encode("ascii"), "x")
@@ -82,9 +83,9 @@ def test_every_flavour_gives_the_path_back_that_was_written(flavour: str, seed: 
     np.testing.assert_allclose(evenly(got.commands), evenly(wanted.commands), atol=1e-2)
     assert program.extent().keys() == again.extent().keys()
     for axis, ends in program.extent().items():
-        assert again.extent()[axis] == pytest.approx(ends, abs=1e-5)
+        assert again.extent()[axis] == pytest.approx(ends, abs=1e-5 + chord)
     length = [one.moves().length.sum() for one in (program, again)]
-    assert length[1] == pytest.approx(length[0], rel=1e-7)
+    assert length[1] == pytest.approx(length[0], rel=1e-7 + 1e-2 * chord)
     said = [block for block in again.blocks if isinstance(block, Stop | Dwell)]
     assert [type(block) for block in said] == [Stop, Dwell]
     assert "PUT THE BAR IN" in said[0].message.upper()

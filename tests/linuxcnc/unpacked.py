@@ -79,7 +79,7 @@ def unpacked() -> Path:
     folder = cache_folder() / f"{PACKAGE}-{platform.machine()}"
     if not _complete(folder):
         folder.parent.mkdir(parents=True, exist_ok=True)
-        with _alone(folder.with_suffix(".lock")):
+        with alone(folder.with_suffix(".lock")):
             if not _complete(folder):
                 _unpack(folder)
     return folder
@@ -112,7 +112,7 @@ def _complete(folder: Path) -> bool:
 
 
 @contextmanager
-def _alone(lock: Path) -> Iterator[None]:
+def alone(lock: Path) -> Iterator[None]:
     """One process at a time."""
     import fcntl
 

@@ -52,7 +52,7 @@ def iso_text(program: Program, writing: Writing, language: Language) -> str:
     """The text of a program of words."""
     language = replace(language, decimals=writing.decimals or language.decimals)
     body = list(_blocks(program, language))
-    lines = language.begin(program, writing) + body + language.end(program, writing)
+    lines = "\n".join(language.begin(program, writing) + body + language.end(program, writing)).split("\n")
     if writing.numbers:
         lines = [f"N{10 * k} {line}" if line[:1].isalpha() else line for k, line in enumerate(lines, 1)]
     return "\n".join(lines) + "\n"

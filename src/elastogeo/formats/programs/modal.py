@@ -74,6 +74,8 @@ class Dialect:
         As those of `Reading`, by default.
     ends : tuple of int
         Words M that end a program.
+    also_ends : str
+        What else does, for messages.
     harmless : frozenset of float
         Words G beside `HARMLESS` that move nothing.
     """
@@ -85,6 +87,7 @@ class Dialect:
     feed_counts: str = "linear"
     dwell_p: str = "s"
     ends: tuple[int, ...] = (2, 30)
+    also_ends: str = ""
     harmless: frozenset[float] = frozenset()
 
 
@@ -190,7 +193,7 @@ class Modal:
             If it does not end, or has no block.
         """
         if not self.ended:
-            ends = " or ".join(f"M{number}" for number in self.dialect.ends)
+            ends = " or ".join(f"M{number}" for number in self.dialect.ends) + self.dialect.also_ends
             raise self.fail(f"the program ends here without {ends}; it may be cut off: copy it again")
         if not len(self.packing):
             raise FormatError(f"{self.source}: the program has no block; look into the file")
