@@ -33,7 +33,7 @@ GROUPS = {
     ),
     "Before and after a test": (
         "plan", "map_compliance", "write_program", "read_program", "compensate", "compensate_path",
-        "predict", "read_path", "read_cut",
+        "predict", "read_path", "read_cut", "read_design",
     ),
     "What comes back": ("Result", "Estimate", "MachineTest", "Campaign", "Machine"),
     "What may go wrong": ("ElastogeoError", "InputError", "UnsupportedError"),

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     )
     from elastogeo.formats.documents.campaigns import read_campaign
     from elastogeo.formats.documents.cuts import read_cut
+    from elastogeo.formats.documents.designs import Design, read_design
     from elastogeo.formats.documents.feed_drives import read_drives
     from elastogeo.formats.documents.machine_tests import example_test, full_turn, read_test, run_files_of
     from elastogeo.formats.documents.machines import find_machine, machines, read_machine, shipped_machines
@@ -78,6 +79,7 @@ __all__ = [
     "Clock",
     "CompensationFormat",
     "DeflectionDocument",
+    "Design",
     "Flavour",
     "Gap",
     "Inspected",
@@ -120,6 +122,7 @@ __all__ = [
     "read_campaign",
     "read_compensation",
     "read_cut",
+    "read_design",
     "read_drives",
     "read_forces",
     "read_head",

@@ -5,8 +5,24 @@ Stands on `identification`, `formats` and all below; knows no figure.
 
 from elastogeo.prediction.compensation import compensate, compensate_path
 from elastogeo.prediction.knowledge import Knowledge, Predicted, knowledge_of
-from elastogeo.prediction.maps import Acceptance, ComplianceMap, Grid, Place, accepted, map_compliance
-from elastogeo.prediction.maps.verdict import FOUNDATION, LIMIT, NOTHING_LEFT_OUT, SUPPORTED_EVERYWHERE, UNCERTAINTY_KNOWN
+from elastogeo.prediction.maps import (
+    Acceptance,
+    AgainstDesign,
+    ComplianceMap,
+    DesignParameter,
+    Grid,
+    Place,
+    accepted,
+    map_compliance,
+)
+from elastogeo.prediction.maps.verdict import (
+    DESIGN,
+    FOUNDATION,
+    LIMIT,
+    NOTHING_LEFT_OUT,
+    SUPPORTED_EVERYWHERE,
+    UNCERTAINTY_KNOWN,
+)
 from elastogeo.prediction.paths import (
     DEVIATION_COMPONENTS,
     PARTS,
@@ -23,10 +39,17 @@ from elastogeo.prediction.paths import (
 )
 from elastogeo.prediction.scales import TYPICAL_COMPLIANCE, TYPICAL_LEVER, compliance_scales, parameter_scales
 from elastogeo.prediction.support import SUPPORTED, unsupported_share
-from elastogeo.prediction.tool_compliance import ToolCompliance, collinear_stiffness_of, compliance_along, tool_compliance
+from elastogeo.prediction.tool_compliance import (
+    ToolCompliance,
+    collinear_stiffness_of,
+    compliance_along,
+    entry_rows,
+    tool_compliance,
+)
 from elastogeo.prediction.virtual import functionals, virtual_observations
 
 __all__ = [
+    "DESIGN",
     "DEVIATION_COMPONENTS",
     "FOUNDATION",
     "LIMIT",
@@ -39,7 +62,9 @@ __all__ = [
     "TYPICAL_LEVER",
     "UNCERTAINTY_KNOWN",
     "Acceptance",
+    "AgainstDesign",
     "ComplianceMap",
+    "DesignParameter",
     "Grid",
     "Knowledge",
     "PartOfDeviation",
@@ -56,6 +81,7 @@ __all__ = [
     "compliance_along",
     "compliance_scales",
     "deviations",
+    "entry_rows",
     "functionals",
     "knowledge_of",
     "known_deviation",

@@ -137,8 +137,8 @@ class Span:
             over=over,
             systematic=functionals @ self.systematic,
             freedoms=self.freedoms,
-            seen=_narrow(functionals @ self.seen),
-            unseen=_narrow(functionals @ self.unseen),
+            seen=narrow(functionals @ self.seen),
+            unseen=narrow(functionals @ self.unseen),
             scatter=self.scatter,
             along=self.scatter.along(over) if self.scatter is not None and few else None,
         )
@@ -195,7 +195,7 @@ def _share(seen: Array, unseen: Array) -> Array:
     return np.asarray(np.sqrt(np.divide(unseen, whole, out=np.zeros_like(whole), where=whole > 0)))
 
 
-def _narrow(rows: Array) -> Array:
+def narrow(rows: Array) -> Array:
     """Rows of the same lengths and angles, with no more columns than there are rows."""
     return rows if rows.shape[1] <= len(rows) else np.asarray(np.linalg.qr(rows.T)[1]).T
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -29,6 +30,9 @@ def map(
     tool: Annotated[str | None, typer.Option(help="Tool point in the last tool-side carriage [mm], as in 0,0,-160.")] = None,
     least_stiffness: Annotated[
         float | None, typer.Option("--least-stiffness", help="Limit [N/um] to decide on at every place (ISO 14253-1).")
+    ] = None,
+    design: Annotated[
+        Path | None, typer.Option(help="Joints by design or finite elements to compare with: a table, or TOML.")
     ] = None,
     prior: Annotated[
         bool, typer.Option("--prior", help="Give what the tests do not tell by a stated prior, and its share.")
@@ -60,6 +64,7 @@ def map(
             direction=_direction(direction),
             tool=None if tool is None else _numbers(tool, "--tool", "0,0,-160"),
             least_stiffness=None if least_stiffness is None else least_stiffness * 1000.0,
+            design=None if design is None else eg.read_design(design),
             prior=prior,
             parameters=parameters,
             reciprocal=reciprocal,

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Unpack
 
 import numpy as np
 
 from elastogeo.errors import InputError
 from elastogeo.estimate import Estimate
+from elastogeo.formats import Design
 from elastogeo.identification import Asked, Identification, identify
 from elastogeo.machine import Array
 from elastogeo.observe import Askable, Campaign
 from elastogeo.prediction.knowledge import Knowledge, knowledge_of
 from elastogeo.prediction.maps.acceptance import accepted
-from elastogeo.prediction.maps.field import Field, field_over
+from elastogeo.prediction.maps.design import AgainstDesign, against_design, design_vector
+from elastogeo.prediction.maps.field import Field, field_over, given_over
 from elastogeo.prediction.maps.places import Grid, grid
 from elastogeo.prediction.maps.result import ComplianceMap, Place
 from elastogeo.prediction.maps.verdict import (
+    as_designed,
     foundation,
     judged,
     nothing_left_out,
@@ -39,6 +43,7 @@ def map_compliance(
     direction: str | Sequence[float] = SOFTEST,
     tool: Sequence[float] | None = None,
     least_stiffness: float | None = None,
+    design: Design | None = None,
     prior: bool = False,
     **asked: Unpack[Asked],
 ) -> ComplianceMap:
@@ -57,6 +62,8 @@ def map_compliance(
         Functional point in the last tool-branch frame; by default that of the tests, if all have the same.
     least_stiffness : float, optional [N/mm]
         Limit that is decided on at every place (ISO 14253-1).
+    design : Design, optional
+        Compliances by design or finite elements, to be compared with what was measured.
     prior : bool
         Whether to give what is not supported by the stated prior.
     **asked
@@ -69,7 +76,7 @@ def map_compliance(
     Raises
     ------
     InputError
-        If the grid, the direction, the tool or the limit is none, or an identification is asked another question.
+        If the grid, direction, tool, limit or design is none, or an identification is asked another question.
     UnsupportedError
         If no compliance was asked for, or one changes with force, feed or travel.
     """
@@ -85,6 +92,7 @@ def map_compliance(
     compliance, expanded = found.predicted.value, found.predicted.expanded
     decision = None if least_stiffness is None else accepted(compliance, expanded, least_stiffness)
     stiffest, softest = _extremes(known, places, point, found, prior)
+    compared = None if design is None else _compared(known, places, point, found, design)
     shape, predicted = places.shape, found.predicted
     return ComplianceMap(
         campaign=campaign,
@@ -104,6 +112,7 @@ def map_compliance(
         corners=tuple(_place(known, places, point, found, k, prior) for k in places.corners if np.isfinite(compliance[k])),
         difference=_difference(known, point, found, places, stiffest, softest, prior),
         acceptance=decision,
+        design=compared,
         rigid=known.rigid,
         verdict=judged(
             supported_everywhere(predicted.supported, prior, (known.confounding.rank, len(known.confounding.labels))),
@@ -111,8 +120,18 @@ def map_compliance(
             nothing_left_out(known.rigid, sum(source.elastic for source in known.sources)),
             foundation(result),
             None if decision is None else stiff_enough(decision),
+            None if compared is None else as_designed(compared),
         ),
     )
+
+
+def _compared(known: Knowledge, places: Grid, tool: Array, found: Field, design: Design) -> AgainstDesign:
+    """What was measured against design; by data alone, also where a prior was asked for."""
+    value, spread = given_over(known, places, tool, found.direction, design_vector(known, design))
+    told = found.predicted.supported
+    measured, expanded = (np.where(told, one, np.nan) for one in (found.predicted.value, found.predicted.expanded))
+    whole = against_design(known, design, value, measured, expanded, design.relative_uncertainty * spread)
+    return replace(whole, compliance=value.reshape(places.shape), agrees=whole.agrees.reshape(places.shape))
 
 
 def _direction(asked: str | Sequence[float]) -> Array | None:

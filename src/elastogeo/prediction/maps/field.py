@@ -12,7 +12,7 @@ from itertools import product
 import numpy as np
 
 from elastogeo.machine import Array
-from elastogeo.prediction.knowledge import Knowledge, Predicted, Span
+from elastogeo.prediction.knowledge import Knowledge, Predicted, Span, narrow
 from elastogeo.prediction.maps.places import Grid
 from elastogeo.prediction.support import SUPPORTED
 from elastogeo.prediction.tool_compliance import TRANSLATION, entry_rows, weights_of
@@ -108,7 +108,6 @@ def _along(span: Span, terms: Array, direction: Array, prior: bool) -> Field:
 
 def _softest(span: Span, terms: Array, prior: bool) -> Field:
     """The greatest principal compliance of each place, its U to first order; nothing where an element is not supported."""
-    elements = np.einsum("mb,be->mbe", terms, np.ones((terms.shape[1], len(TRANSLATION))))
     values = terms @ span.value.reshape(terms.shape[1], -1)
     matrices = np.empty((len(terms), 3, 3))
     for k, (i, j) in enumerate(TRANSLATION):
@@ -116,7 +115,7 @@ def _softest(span: Span, terms: Array, prior: bool) -> Field:
     vectors = np.linalg.eigh(matrices)[1][:, :, -1]
     greatest = np.argmax(np.abs(vectors), axis=1)
     vectors *= np.sign(np.take_along_axis(vectors, greatest[:, np.newaxis], axis=1))
-    coefficients = elements * weights_of(vectors, TRANSLATION)[:, np.newaxis]
+    coefficients = terms[:, :, np.newaxis] * weights_of(vectors, TRANSLATION)[:, np.newaxis]
     found = span.predict(coefficients.reshape(len(terms), -1), prior)
     share = np.max([_unsupported(span, terms, k) for k in range(len(TRANSLATION))], axis=0)
     whole = share < SUPPORTED
@@ -133,3 +132,25 @@ def _unsupported(span: Span, terms: Array, element: int) -> Array:
     chosen = np.zeros((len(terms), terms.shape[1], len(TRANSLATION)))
     chosen[:, :, element] = terms
     return span.unsupported(chosen.reshape(len(terms), -1))
+
+
+def given_over(knowledge: Knowledge, grid: Grid, tool: Array, directions: Array, values: Array) -> tuple[Array, Array]:
+    """The compliance along a direction at each place, shape (m, 3), by given values of the parameters, shape (p,).
+
+    Returns
+    -------
+    tuple of array, shape (m,) [mm/N]
+        It, and the root of the sum of squares of what each parameter brings.
+    """
+    found = quadratic(knowledge, grid, tool)
+    brought = (found.rows * values).reshape(-1, len(values))
+    whole, apart = brought.sum(axis=1), narrow(brought)
+    parts = []
+    for first in range(0, grid.size, BLOCK):
+        places = np.arange(first, min(first + BLOCK, grid.size))
+        terms = found.terms(grid.commands(places)[:, list(grid.columns)])
+        weights = weights_of(directions[places], TRANSLATION)
+        coefficients = (terms[:, :, np.newaxis] * weights[:, np.newaxis]).reshape(len(places), -1)
+        parts.append(np.column_stack([coefficients @ whole, np.linalg.norm(coefficients @ apart, axis=1)]))
+    both = np.vstack(parts)
+    return both[:, 0], both[:, 1]

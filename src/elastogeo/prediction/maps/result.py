@@ -13,6 +13,7 @@ from elastogeo.identification import Check
 from elastogeo.machine import Array
 from elastogeo.observe import Campaign
 from elastogeo.prediction.maps.acceptance import Acceptance
+from elastogeo.prediction.maps.design import AgainstDesign
 from elastogeo.prediction.maps.places import Grid
 from elastogeo.prediction.tool_compliance import ToolCompliance
 from elastogeo.result import Result
@@ -81,6 +82,8 @@ class ComplianceMap(Result):
         By how much the worst place is softer than the best.
     acceptance : Acceptance or None
         Against a limit, if one was given.
+    design : AgainstDesign or None
+        Against design or finite elements, if any was given.
     rigid : tuple of str
         Compliances of joints and places that were not asked for.
     verdict : tuple of Check
@@ -103,6 +106,7 @@ class ComplianceMap(Result):
     corners: tuple[Place, ...]
     difference: Estimate | None
     acceptance: Acceptance | None
+    design: AgainstDesign | None
     rigid: tuple[str, ...]
     verdict: tuple[Check, ...]
 

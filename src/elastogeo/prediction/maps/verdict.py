@@ -9,6 +9,7 @@ import numpy as np
 from elastogeo.identification import Check, Identification
 from elastogeo.machine import Array
 from elastogeo.prediction.maps.acceptance import Acceptance
+from elastogeo.prediction.maps.design import AgainstDesign
 from elastogeo.prediction.maps.result import Flags
 
 SUPPORTED_EVERYWHERE = "prediction supported"
@@ -16,6 +17,7 @@ UNCERTAINTY_KNOWN = "prediction has an uncertainty"
 NOTHING_LEFT_OUT = "all compliances asked for"
 FOUNDATION = "identification sound"
 LIMIT = "stiff enough"
+DESIGN = "as designed"
 
 _OF_PARAMETERS = ("identifiable", "conditioned", "above resolution")
 """Checks of single parameters: a prediction asks for sums of them, and its U says how well they are known."""
@@ -61,6 +63,20 @@ def stiff_enough(acceptance: Acceptance) -> Check:
         "undecided": acceptance.undecided,
     }
     return Check(LIMIT, acceptance.passed, facts)
+
+
+def as_designed(design: AgainstDesign) -> Check:
+    """Whether the compliance at the tool is that of the design within U, wherever the tests tell."""
+    told = [one.agrees for one in design.parameters if one.agrees is not None]
+    facts = {
+        "places": int(np.sum(design.agrees != 0)),
+        "differ": int(np.sum(design.agrees < 0)),
+        "parameters": len(told),
+        "parameters_differ": told.count(False),
+        "missing": len(design.missing),
+        "unused": design.unused,
+    }
+    return Check(DESIGN, design.passed, facts)
 
 
 def judged(*checks: Check | None) -> tuple[Check, ...]:

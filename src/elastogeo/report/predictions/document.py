@@ -17,6 +17,11 @@ stiffest, softest : {commands, compliance, stiffness, principal, at_tool}, or nu
     at_tool : {compliance, expanded, supported, alone, stiffness, stiffness_expanded}, 6 x 6, in mm, N, rad
 difference_nm_per_N : by how much the softest place is softer than the stiffest, with its uncertainty
 limit : null, or {least_stiffness_N_per_um, conforming, failing, undecided, passed}
+design : null, or {name, compliance_nm_per_N, agrees, parameters, missing, unused}
+    compliance_nm_per_N, agrees : arrays over the grid; agrees within U: 1, differs: -1, not told by the tests: 0
+    parameters : [{name, unit, stands_for, value, standard_uncertainty, interval95, degrees_of_freedom, design,
+        design_uncertainty, agrees}], what the tests determine, in `unit`
+    missing : [name] that were asked for and are rigid by design; unused : [name] of the design that were not asked for
 rigid : [name] of the compliances that were not asked for
 prior : null, or {compliance_mm_per_N, lever_mm}: the standard deviation of what no test sees
 """
@@ -30,7 +35,7 @@ import numpy as np
 from elastogeo.errors import UnsupportedError
 from elastogeo.estimate import Estimate
 from elastogeo.identification import Principal
-from elastogeo.prediction import TYPICAL_COMPLIANCE, TYPICAL_LEVER, Acceptance, ComplianceMap, Place
+from elastogeo.prediction import TYPICAL_COMPLIANCE, TYPICAL_LEVER, Acceptance, AgainstDesign, ComplianceMap, Place
 from elastogeo.report.document import UM, document, tested_together, uncertainty_entries, verdict_entries
 
 MAP_SCHEMA = "elastogeo.compliance_map/1"
@@ -64,6 +69,7 @@ def map_json(found: ComplianceMap) -> dict[str, Any]:
             "softest": _place(found, found.softest),
             "difference_nm_per_N": None if found.difference is None else _estimate(found.difference, NM),
             "limit": None if found.acceptance is None else _limit(found.acceptance),
+            "design": None if found.design is None else _design(found.design, part),
             "rigid": found.rigid,
             "prior": {"compliance_mm_per_N": TYPICAL_COMPLIANCE, "lever_mm": TYPICAL_LEVER} if found.prior else None,
             "verdict": verdict_entries(found.verdict),
@@ -138,6 +144,28 @@ def stiffness_entry(compliance: Estimate) -> dict[str, Any] | None:
 
 def _estimate(found: Estimate, factor: float) -> dict[str, Any]:
     return {"value": found.value * factor, **uncertainty_entries(found, factor)}
+
+
+def _design(found: AgainstDesign, part: tuple[slice, ...]) -> dict[str, Any]:
+    return {
+        "name": found.name,
+        "compliance_nm_per_N": found.compliance[part] * NM,
+        "agrees": found.agrees[part],
+        "parameters": [
+            {
+                "name": one.name,
+                "unit": one.unit,
+                "stands_for": one.stands_for,
+                **_estimate(one.measured, 1.0),
+                "design": one.design,
+                "design_uncertainty": one.design_uncertainty,
+                "agrees": one.agrees,
+            }
+            for one in found.parameters
+        ],
+        "missing": found.missing,
+        "unused": found.unused,
+    }
 
 
 def _limit(found: Acceptance) -> dict[str, Any]:

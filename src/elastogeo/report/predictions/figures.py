@@ -36,6 +36,12 @@ def uncertainty_figure(found: ComplianceMap) -> Figure:
     return _coloured(found, found.expanded * NM, "U (95 %) [nm/N]", marked=False)
 
 
+def design_figure(found: ComplianceMap) -> Figure:
+    """How much softer the machine is than its design, in the same slices."""
+    assert found.design is not None
+    return _coloured(found, (found.compliance - found.design.compliance) * NM, "measured less design [nm/N]", marked=False)
+
+
 def ellipsoids_figure(found: ComplianceMap) -> Figure:
     """At the corners and in the middle how far a force of one size in every direction moves the tool along itself."""
     figure = new_figure(4.8)

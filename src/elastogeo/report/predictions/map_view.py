@@ -9,18 +9,20 @@ import numpy as np
 
 from elastogeo.errors import UnsupportedError
 from elastogeo.estimate import Estimate
-from elastogeo.prediction import TYPICAL_COMPLIANCE, TYPICAL_LEVER, ComplianceMap, Place
+from elastogeo.prediction import TYPICAL_COMPLIANCE, TYPICAL_LEVER, AgainstDesign, ComplianceMap, Place
 from elastogeo.report.document import UM
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.head import campaign_head, files_section, origin
 from elastogeo.report.numbers import UNKNOWN, pretty, said_estimate, significant
 from elastogeo.report.predictions.document import NM, map_json, rows_of
+from elastogeo.report.text import combination, shared_units
 from elastogeo.report.view import KeyValue, Picture, Section, Table, View, attention_sentence, said, views
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _PERCENT = 100.0
+_TERMS = 3
 
 
 @views(ComplianceMap)
@@ -146,6 +148,8 @@ def _sections(found: ComplianceMap) -> Iterator[Section]:
         yield Section(
             "Ellipsoids", pictures=(_picture("ellipsoids", caption, "Compliance ellipsoids in the volume", found),)
         )
+    if found.design is not None:
+        yield _design_section(found, found.design)
     tables = tuple(_tables(found))
     if tables:
         yield Section("Worst and best place", tables=tables)
@@ -160,6 +164,31 @@ def _sections(found: ComplianceMap) -> Iterator[Section]:
         ),
     )
     yield from files_section(found.campaign)
+
+
+def _design_section(found: ComplianceMap, design: AgainstDesign) -> Section:
+    wide = sum(count > 1 for count in found.grid.shape) > 1 and bool(design.agrees.any())
+    caption = "How much softer the machine is at the tool than by design: negative where it is stiffer."
+    pictures = (_picture("design", caption, "Measured less design over slices of the volume", found),) if wide else ()
+    units = shared_units((one.name, one.unit, max(abs(one.measured.value), abs(one.design))) for one in design.parameters)
+    rows = tuple(
+        (
+            combination(one.stands_for, _TERMS),
+            pretty(_in_unit(one.measured, units[one.name].factor)),
+            pretty(significant(one.design * units[one.name].factor)),
+            units[one.name].name,
+            {True: "yes", False: "no", None: "not known"}[one.agrees],
+        )
+        for one in design.parameters
+    )
+    heads = ("what the tests determine", "measured ± U (95 %)", "by design", "unit", "agree within U")
+    note = "Single compliances stay in sums; what the machine does at the tool does not. Compare there."
+    table = Table(heads, rows, words=(0, 3, 4), title=f"Against {design.name}", note=note)
+    return Section("Against the design", pictures=pictures, tables=(table,) if rows else ())
+
+
+def _in_unit(found: Estimate, factor: float) -> str:
+    return said_estimate(found.scaled(factor)) if found.known else significant(found.value * factor)
 
 
 def _drawable(found: ComplianceMap) -> bool:
@@ -177,8 +206,7 @@ def _where(found: ComplianceMap, place: Place) -> str:
 
 
 def _said(compliance: Estimate) -> str:
-    shown = compliance.scaled(NM)
-    return said_estimate(shown) if compliance.known else significant(shown.value)
+    return _in_unit(compliance, NM)
 
 
 def _stiffness(compliance: Estimate) -> str:
@@ -202,6 +230,7 @@ def _picture(name: str, caption: str, alternative: str, found: ComplianceMap) ->
         return {
             "slices": figures.slices_figure,
             "uncertainty": figures.uncertainty_figure,
+            "design": figures.design_figure,
             "ellipsoids": figures.ellipsoids_figure,
         }[name](found)
 

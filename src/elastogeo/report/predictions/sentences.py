@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from elastogeo.prediction import (
+    DESIGN,
     FOUNDATION,
     LIMIT,
     NOTHING_LEFT_OUT,
@@ -78,3 +79,21 @@ def stiff_enough(facts: Facts, passed: bool | None) -> str:
         return f"All {places} places are stiffer than {limit}, by U at least (ISO 14253-1)."
     counts = f"{facts['conforming']} conform, {facts['failing']} do not, {facts['undecided']} are not decided"
     return f"Against {limit}, with U as guard band (ISO 14253-1), of {places} places {counts}."
+
+
+@says(DESIGN)
+def as_designed(facts: Facts, passed: bool | None) -> str:
+    """Whether the machine is as stiff as it was designed."""
+    rigid = f" {facts['missing']} compliances that were asked for are rigid by design." if facts["missing"] else ""
+    other = facts["unused"]
+    more = (
+        f" {len(other)} of the design were not asked for ({', '.join(other[:_FEW])}): rigid in what was measured."
+        if other
+        else ""
+    )
+    if passed is None:
+        return f"No place can be compared with the design.{rigid}{more}"
+    agreeing = facts["places"] - facts["differ"]
+    said = "at every place" if passed else f"at {agreeing or 'none'} of {facts['places']} places"
+    sums = f"{facts['parameters_differ']} of {facts['parameters']} compliances, or sums of them, differ by more than U."
+    return f"The compliance at the tool is that of the design within U {said}; {sums}{rigid}{more}"
