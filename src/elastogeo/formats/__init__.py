@@ -160,6 +160,7 @@ __getattr__ = first_use(
         "calibration_text read_calibration write_calibration",
         "documents.campaigns": "read_campaign",
         "documents.cuts": "read_cut",
+        "documents.designs": "Design read_design",
         "documents.feed_drives": "read_drives",
         "documents.machine_tests": "example_test full_turn read_test run_files_of",
         "documents.machines": "find_machine machines read_machine shipped_machines",

@@ -192,9 +192,7 @@ def _entry(given: DesignValue, where: str) -> dict[str, float]:
     wanted = _DIMENSIONS[0][turned[0]], _DIMENSIONS[1][turned[1]]
     factor = _factor(given.unit, wanted[::-1] if stiff else wanted, where)
     if not np.isfinite(given.value) or (stiff and given.value <= 0):
-        raise FormatError(
-            f"{where}: {given.name} is {given.value:g}; it must be finite, and a stiffness positive"
-        )
+        raise FormatError(f"{where}: {given.name} is {given.value:g}; it must be finite, and a stiffness positive")
     value = given.value * factor
     return {f"{kind.replace('K', 'C')}_{d}{f}{at}": 1.0 / value if stiff else value}
 
