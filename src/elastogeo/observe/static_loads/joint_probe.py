@@ -8,32 +8,21 @@ alone; at any other point the rotations too.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Annotated, ClassVar
 
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import COMPONENTS, MM_OR_RAD, Array, AxisCommands, Block, LoopFrames, Machine, Point, loop_frames
+from elastogeo.machine import COMPONENTS, MM_OR_RAD, Array, AxisCommands, LoopFrames, Machine, Point, loop_frames
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector
-from elastogeo.observe.displacements import check_displacements, recorded
-from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
-from elastogeo.observe.observations import Observations, check_observations
-from elastogeo.observe.procedure import Procedure
+from elastogeo.observe.observations import Observations
 from elastogeo.observe.run import Run
-from elastogeo.observe.setup import Respond, Setup, SetupFact
-from elastogeo.observe.static_loads.load import (
-    commands_row,
-    force_columns,
-    force_level,
-    force_sizes,
-    force_vectors,
-    planned,
-    static_program,
-    with_lever,
-)
+from elastogeo.observe.setup import SetupFact
+from elastogeo.observe.static_loads.load import commands_row, planned
+from elastogeo.observe.static_loads.static_load import StaticLoad
 from elastogeo.observe.template import FORCE, Template
 
 _SETUP = """\
@@ -64,7 +53,7 @@ E_R0 = 0.002
 
 @instrument("joint-probe")
 @dataclass(frozen=True, slots=True)
-class JointProbe(Setup):
+class JointProbe(StaticLoad):
     """Set-up of a displacement probe across one joint, or several in a row.
 
     The machine stands still while it is read; the places of a run are columns of axis positions (`z_mm`), and two of them
@@ -105,7 +94,6 @@ class JointProbe(Setup):
     ramp: bool = True
     places: Annotated[Mapping[str, tuple[float, ...]], MM_OR_RAD] = field(default_factory=dict)
 
-    limits: ClassVar = ("force", "sensor")
     template: ClassVar = Template(
         title="Displacement probe across a joint",
         setup=_SETUP,
@@ -124,23 +112,12 @@ class JointProbe(Setup):
         unit_vector(self.sensor, "the direction of the sensor")
         if not np.isfinite(self.point).all():
             raise InputError(f"the point of the probe is {self.point} mm; it must be three finite numbers")
-        if self.direction is not None:
-            unit_vector(self.direction, "the direction of the force")
-
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        """Columns that a run file must have; `force` may be left out of a run that is given its force as a whole."""
-        return (*force_columns(self.direction), "displacement")
+        self.check_direction()
 
     @property
     def file_units(self) -> Mapping[str, str]:
         """Positions of linear axes stand in millimetres."""
         return dict.fromkeys("xyz", "mm")
-
-    @property
-    def pose_quantity(self) -> str:
-        """The size of the force."""
-        return "force"
 
     def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
         """The compliances of the joints in what the probe sees of them, for every load, and the probe's zero."""
@@ -171,54 +148,23 @@ class JointProbe(Setup):
             in a row.
         """
         _check_in_a_row(machine, self.across)
-        columns = recorded(run, self.quantities, optional="force")
-        count = len(columns["displacement"])
-        tool = np.array(machine.tool if self.tool is None else self.tool)
+        count, tool = self.instants_of(run), self.tool_point(machine)
         commands = np.asfortranarray(np.repeat(commands_row(machine, self.pose), count, axis=0))
         for axis in machine.axes:
             if axis.lower() in run.columns:
                 commands[:, machine.index(axis)] = run.columns[axis.lower()]
         frames = loop_frames(machine, commands, tool)
-        opposite = frames.workpiece.components(frames.point - frames.workpiece.origin)
-        force = force_vectors(run, self.direction, count, run.force)
-        sizes = force_sizes(force, self.direction)
-        observations = Observations(
-            run=run.name,
-            force=force_level(sizes, run.force),
-            pose=sizes,
-            commands=commands,
-            velocity=np.zeros_like(commands),
-            acceleration=np.zeros_like(commands),
-            centre=np.array([self.pose.get(axis, 0.0) for axis in machine.axes]),
-            direction=self._line(frames, count),
-            wrench=with_lever(force, np.array([self.lever])),
-            reading=columns["displacement"],
-            correction=np.zeros(count),
-            tool=tool,
-            workpiece=np.broadcast_to(opposite, (count, 3)),
-            span=self.across,
-        )
-        check_observations(observations)
-        check_displacements(run, ["displacement"])
-        return observations
+        opposite = np.broadcast_to(frames.workpiece.components(frames.point - frames.workpiece.origin), (count, 3))
+        return self.observed(machine, run, commands, self._line(frames, count), opposite, span=self.across)
 
-    def program(self, machine: Machine, runs: Sequence[Run], procedure: Procedure) -> Sequence[Block]:
-        """To the pose of each run, and a stop there."""
-        return static_program(machine, runs, self.pose, self.template.title, procedure)
-
-    def simulated(
-        self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
-    ) -> Run:
-        """The run with the displacements that the probe would give at its forces."""
+    def planned_columns(self, machine: Machine, run: Run) -> dict[str, Array]:
+        """Where it stands cycle by cycle, and its forces."""
         columns = planned(machine, run, self.direction, ramp=self.ramp)
         if self.places and "angle" in run.columns:
             turn = np.floor(np.asarray(run.columns["angle"]) / (2 * np.pi)).astype(int)
             for axis, places in self.places.items():
                 columns.setdefault(axis.lower(), np.array(places)[turn % len(places)])
-        count = max(map(len, (columns or run.columns).values()), default=0)
-        blank = self.observe(machine, replace(run, columns={**columns, "displacement": np.zeros(count)}))
-        true = respond(replace(blank, wrench=blank.wrench * imperfection.force_factor(random)))
-        return replace(run, columns={**columns, "displacement": imperfection.noisy(true - blank.reading, random)})
+        return columns
 
     def _line(self, frames: LoopFrames, count: int) -> Array:
         """The probe's line as a twist at the tool point, shape (m, 6): its direction, and the moment of it there."""

@@ -9,33 +9,21 @@ observations, from which joint compliances are identified.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Block, Machine, Point, loop_frames, workpiece_ball
+from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector
-from elastogeo.observe.displacements import check_displacements, read_by, recorded
-from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
-from elastogeo.observe.observations import Observations, check_observations
-from elastogeo.observe.procedure import Procedure
+from elastogeo.observe.observations import Observations
 from elastogeo.observe.run import Run
-from elastogeo.observe.setup import Respond, Setup, SetupFact
-from elastogeo.observe.static_loads.load import (
-    commands_row,
-    force_columns,
-    force_level,
-    force_sizes,
-    force_vectors,
-    planned,
-    static_commands,
-    static_program,
-    with_lever,
-)
+from elastogeo.observe.setup import SetupFact
+from elastogeo.observe.static_loads.load import commands_row, static_commands
+from elastogeo.observe.static_loads.static_load import StaticLoad
 from elastogeo.observe.template import FORCE, Template
 
 
@@ -110,7 +98,7 @@ C_CXX = 2e-8
 
 @instrument("sensor-frame")
 @dataclass(frozen=True, slots=True)
-class SensorFrame(Setup):
+class SensorFrame(StaticLoad):
     """Set-up of a frame of displacement sensors.
 
     A run stands still and has one column per sensor, `displacement_1`, `displacement_2`, ..., zeroed without load; runs at
@@ -146,7 +134,6 @@ class SensorFrame(Setup):
     ramp: bool = True
 
     extra: ClassVar = "twist"
-    limits: ClassVar = ("force", "sensor")
     template: ClassVar = Template(
         title="Frame of displacement sensors",
         setup=_SETUP,
@@ -161,23 +148,12 @@ class SensorFrame(Setup):
     def __post_init__(self) -> None:
         """Refuse a frame without sensors, and a direction that is none."""
         sensitivities(self.sensors)
-        if self.direction is not None:
-            unit_vector(self.direction, "the direction of the force")
+        self.check_direction()
 
     @property
     def readings(self) -> tuple[str, ...]:
         """Columns of the sensors."""
         return tuple(f"displacement_{k}" for k in range(1, len(self.sensors) + 1))
-
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        """Columns that a run file must have; `force` may be left out of a run that is given its force as a whole."""
-        return (*force_columns(self.direction), *self.readings)
-
-    @property
-    def pose_quantity(self) -> str:
-        """The size of the force."""
-        return "force"
 
     def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
         """The compliances: which sums of them one place and one direction of the force show, the answer says."""
@@ -199,50 +175,12 @@ class SensorFrame(Setup):
         InputError
             If the run lacks a column or a force, moves, or has a value that is no finite number.
         """
-        columns = recorded(run, self.quantities, optional="force")
-        count, sensors = len(columns[self.readings[0]]), len(self.sensors)
-        tool = np.array(machine.tool if self.tool is None else self.tool)
         place = static_commands(machine, run, self.pose)
-        commands = np.repeat(commands_row(machine, place), count * sensors, axis=0)
-        frame = loop_frames(machine, commands[:1], tool).workpiece
-        seen, lever = sensitivities(self.sensors), np.array([self.lever])
-        force = force_vectors(run, self.direction, count, run.force)
-        sizes = force_sizes(force, self.direction)
-        if self.in_workpiece:
+        commands = np.repeat(commands_row(machine, place), self.instants_of(run), axis=0)
+        tool = self.tool_point(machine)
+        frame = loop_frames(machine, commands[:1], tool).workpiece if self.in_workpiece else None
+        seen = sensitivities(self.sensors)
+        if frame is not None:
             seen = np.hstack([frame.vector(seen[:, :3]), frame.vector(seen[:, 3:])])
-            lever, force = frame.vector(lever), frame.vector(force)
-        observations = Observations(
-            run=run.name,
-            force=force_level(sizes, run.force),
-            pose=np.tile(sizes, sensors),
-            commands=commands,
-            velocity=np.zeros_like(commands),
-            acceleration=np.zeros_like(commands),
-            centre=np.array([self.pose.get(axis, 0.0) for axis in machine.axes]),
-            direction=np.asfortranarray(np.repeat(seen, count, axis=0)),
-            wrench=np.asfortranarray(np.tile(with_lever(force, lever), (sensors, 1))),
-            reading=np.concatenate([columns[name] for name in self.readings]),
-            correction=np.zeros(count * sensors),
-            tool=tool,
-            workpiece=workpiece_ball(machine, place, tool),
-            instant=np.tile(np.arange(float(count)), sensors),
-        )
-        check_observations(observations)
-        check_displacements(run, self.readings)
-        return observations
-
-    def program(self, machine: Machine, runs: Sequence[Run], procedure: Procedure) -> Sequence[Block]:
-        """To the pose of each run, and a stop there."""
-        return static_program(machine, runs, self.pose, self.template.title, procedure)
-
-    def simulated(
-        self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
-    ) -> Run:
-        """The run with the displacements that the sensors would give at its forces."""
-        columns = planned(machine, run, self.direction, ramp=self.ramp)
-        count = max(map(len, (columns or run.columns).values()), default=0)
-        zeros = dict.fromkeys(self.readings, np.zeros(count))
-        blank = self.observe(machine, replace(run, columns={**columns, **zeros}))
-        true = respond(replace(blank, wrench=blank.wrench * imperfection.force_factor(random)))
-        read = read_by(imperfection, true - blank.reading, len(self.sensors), random)
-        return replace(run, columns={**columns, **dict(zip(self.readings, read, strict=True))})
+        lines = np.repeat(seen, len(commands), axis=0)
+        return self.observed(machine, run, commands, lines, workpiece_ball(machine, place, tool), frame)

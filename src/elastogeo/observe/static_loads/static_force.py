@@ -8,33 +8,20 @@ its loading and unloading branches; here the run becomes observations, from whic
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
 
-from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Block, Machine, Point, loop_frames, workpiece_ball
+from elastogeo.machine import MM_OR_RAD, Array, AxisCommands, Machine, Point, loop_frames, workpiece_ball
 from elastogeo.observe.circle import Direction
 from elastogeo.observe.directions import unit_vector
-from elastogeo.observe.displacements import check_displacements, recorded
-from elastogeo.observe.imperfection import Imperfection
 from elastogeo.observe.instruments import instrument
-from elastogeo.observe.observations import Observations, check_observations
-from elastogeo.observe.procedure import Procedure
+from elastogeo.observe.observations import Observations
 from elastogeo.observe.run import Run
-from elastogeo.observe.setup import Respond, Setup, SetupFact
-from elastogeo.observe.static_loads.load import (
-    axes_along,
-    commands_row,
-    force_columns,
-    force_level,
-    force_sizes,
-    force_vectors,
-    planned,
-    static_commands,
-    static_program,
-    with_lever,
-)
+from elastogeo.observe.setup import SetupFact
+from elastogeo.observe.static_loads.load import axes_along, commands_row, static_commands
+from elastogeo.observe.static_loads.static_load import StaticLoad
 from elastogeo.observe.template import FORCE, Template
 
 _SETUP = """\
@@ -61,7 +48,7 @@ E_R0 = 0.002
 
 @instrument("static-force")
 @dataclass(frozen=True, slots=True)
-class StaticForce(Setup):
+class StaticForce(StaticLoad):
     """Set-up of a static force with one displacement sensor.
 
     A run stands still; runs at several places name them by columns of axis positions (`x_mm`, `c_deg`). The sensor's zero is
@@ -96,7 +83,6 @@ class StaticForce(Setup):
     ramp: bool = True
 
     extra: ClassVar = "loading-cycles"
-    limits: ClassVar = ("force", "sensor")
     template: ClassVar = Template(
         title="Static force and a displacement sensor",
         setup=_SETUP,
@@ -111,18 +97,7 @@ class StaticForce(Setup):
     def __post_init__(self) -> None:
         """Refuse directions that are none."""
         self.sensitive_direction()
-        if self.direction is not None:
-            unit_vector(self.direction, "the direction of the force")
-
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        """Columns that a run file must have; `force` may be left out of a run that is given its force as a whole."""
-        return (*force_columns(self.direction), "displacement")
-
-    @property
-    def pose_quantity(self) -> str:
-        """The size of the force."""
-        return "force"
+        self.check_direction()
 
     def default_parameters(self, _: Sequence[Run]) -> tuple[str, ...]:
         """The compliances in translation that force and sensor show, and the sensor's zero."""
@@ -155,46 +130,11 @@ class StaticForce(Setup):
         InputError
             If the run lacks a column or a force, moves, or has a value that is no finite number.
         """
-        columns = recorded(run, self.quantities, optional="force")
-        count = len(columns["displacement"])
-        tool = np.array(machine.tool if self.tool is None else self.tool)
         place = static_commands(machine, run, self.pose)
-        commands = np.repeat(commands_row(machine, place), count, axis=0)
-        frame = loop_frames(machine, commands[:1], tool).workpiece
-        sensor, lever = self.sensitive_direction()[np.newaxis], np.array([self.lever])
-        force = force_vectors(run, self.direction, count, run.force)
-        sizes = force_sizes(force, self.direction)
-        if self.in_workpiece:
-            sensor, lever, force = frame.vector(sensor), frame.vector(lever), frame.vector(force)
-        observations = Observations(
-            run=run.name,
-            force=force_level(sizes, run.force),
-            pose=sizes,
-            commands=commands,
-            velocity=np.zeros_like(commands),
-            acceleration=np.zeros_like(commands),
-            centre=np.array([self.pose.get(axis, 0.0) for axis in machine.axes]),
-            direction=np.asfortranarray(np.repeat(np.hstack([sensor, np.zeros((1, 3))]), count, axis=0)),
-            wrench=with_lever(force, lever),
-            reading=columns["displacement"],
-            correction=np.zeros(count),
-            tool=tool,
-            workpiece=workpiece_ball(machine, place, tool),
-        )
-        check_observations(observations)
-        check_displacements(run, ["displacement"])
-        return observations
-
-    def program(self, machine: Machine, runs: Sequence[Run], procedure: Procedure) -> Sequence[Block]:
-        """To the pose of each run, and a stop there."""
-        return static_program(machine, runs, self.pose, self.template.title, procedure)
-
-    def simulated(
-        self, machine: Machine, run: Run, respond: Respond, imperfection: Imperfection, random: np.random.Generator
-    ) -> Run:
-        """The run with the displacements that the sensor would give at its forces."""
-        columns = planned(machine, run, self.direction, ramp=self.ramp)
-        count = max(map(len, (columns or run.columns).values()), default=0)
-        blank = self.observe(machine, replace(run, columns={**columns, "displacement": np.zeros(count)}))
-        true = respond(replace(blank, wrench=blank.wrench * imperfection.force_factor(random)))
-        return replace(run, columns={**columns, "displacement": imperfection.noisy(true - blank.reading, random)})
+        commands = np.repeat(commands_row(machine, place), self.instants_of(run), axis=0)
+        tool = self.tool_point(machine)
+        frame = loop_frames(machine, commands[:1], tool).workpiece if self.in_workpiece else None
+        sensor = self.sensitive_direction()[np.newaxis]
+        along = sensor if frame is None else frame.vector(sensor)
+        lines = np.repeat(np.hstack([along, np.zeros((1, 3))]), len(commands), axis=0)
+        return self.observed(machine, run, commands, lines, workpiece_ball(machine, place, tool), frame)
