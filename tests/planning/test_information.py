@@ -12,7 +12,7 @@ from elastogeo.observe import Circle, Imperfection, LoadedBallBar, MachineTest, 
 from elastogeo.planning import Means, ReadingNoise, candidates, unknowns, whitened
 from elastogeo.planning.choosing.space import row_space
 from elastogeo.planning.made import at_planned_poses
-from elastogeo.planning.workspace import workspace
+from elastogeo.planning.workspaces import workspace
 from elastogeo.prediction import knowledge_of
 from elastogeo.sources import simulate
 from studies.plans import three_axes

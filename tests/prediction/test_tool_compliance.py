@@ -9,7 +9,7 @@ from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.identification import identify
 from elastogeo.machine import jacobian
 from elastogeo.prediction import Knowledge, ToolCompliance, compliance_along, knowledge_of, tool_compliance
-from elastogeo.prediction.tool_compliance import unit_direction
+from elastogeo.prediction.tool_compliances import unit_direction
 from tests.prediction.circles import MIDDLE, circles, machine, springs
 
 AT = np.array([10.0, -25.0, 40.0])

@@ -23,7 +23,7 @@ from elastogeo.planning.offers.candidate import Candidate
 from elastogeo.planning.offers.means import Means
 from elastogeo.planning.proposed import out_of_reach
 from elastogeo.planning.result import ToolSupport
-from elastogeo.planning.workspace import Workspace, workspace
+from elastogeo.planning.workspaces import Workspace, workspace
 from elastogeo.prediction import SUPPORTED, unsupported_share
 
 CHOOSING_POSES, JUDGING_POSES = 48, 300

@@ -3,50 +3,55 @@
 Stands on `identification`, `formats` and all below; knows no figure.
 """
 
-from elastogeo.prediction.compensation import compensate, compensate_path
-from elastogeo.prediction.knowledge import Knowledge, Predicted, knowledge_of
-from elastogeo.prediction.maps import (
-    Acceptance,
-    AgainstDesign,
-    ComplianceMap,
-    DesignParameter,
-    Grid,
-    Place,
-    accepted,
-    map_compliance,
-)
-from elastogeo.prediction.maps.verdict import (
-    DESIGN,
-    FOUNDATION,
-    LIMIT,
-    NOTHING_LEFT_OUT,
-    SUPPORTED_EVERYWHERE,
-    UNCERTAINTY_KNOWN,
-)
-from elastogeo.prediction.paths import (
-    DEVIATION_COMPONENTS,
-    PARTS,
-    TOOL,
-    PartOfDeviation,
-    PathPrediction,
-    Piece,
-    PieceDeviation,
-    deviations,
-    known_deviation,
-    path_deviation,
-    predict,
-    simulated_points,
-)
-from elastogeo.prediction.scales import TYPICAL_COMPLIANCE, TYPICAL_LEVER, compliance_scales, parameter_scales
-from elastogeo.prediction.support import SUPPORTED, unsupported_share
-from elastogeo.prediction.tool_compliance import (
-    ToolCompliance,
-    collinear_stiffness_of,
-    compliance_along,
-    entry_rows,
-    tool_compliance,
-)
-from elastogeo.prediction.virtual import functionals, virtual_observations
+from typing import TYPE_CHECKING
+
+from elastogeo.discovery import first_use
+
+if TYPE_CHECKING:
+    from elastogeo.prediction.compensation import compensate, compensate_path
+    from elastogeo.prediction.knowledge import Knowledge, Predicted, knowledge_of
+    from elastogeo.prediction.maps import (
+        Acceptance,
+        AgainstDesign,
+        ComplianceMap,
+        DesignParameter,
+        Grid,
+        Place,
+        accepted,
+        map_compliance,
+    )
+    from elastogeo.prediction.maps.verdict import (
+        DESIGN,
+        FOUNDATION,
+        LIMIT,
+        NOTHING_LEFT_OUT,
+        SUPPORTED_EVERYWHERE,
+        UNCERTAINTY_KNOWN,
+    )
+    from elastogeo.prediction.paths import (
+        DEVIATION_COMPONENTS,
+        PARTS,
+        TOOL,
+        PartOfDeviation,
+        PathPrediction,
+        Piece,
+        PieceDeviation,
+        deviations,
+        known_deviation,
+        path_deviation,
+        predict,
+        simulated_points,
+    )
+    from elastogeo.prediction.scales import TYPICAL_COMPLIANCE, TYPICAL_LEVER, compliance_scales, parameter_scales
+    from elastogeo.prediction.support import SUPPORTED, unsupported_share
+    from elastogeo.prediction.tool_compliances import (
+        ToolCompliance,
+        collinear_stiffness_of,
+        compliance_along,
+        entry_rows,
+        tool_compliance,
+    )
+    from elastogeo.prediction.virtual import functionals, virtual_observations
 
 __all__ = [
     "DESIGN",
@@ -94,3 +99,19 @@ __all__ = [
     "unsupported_share",
     "virtual_observations",
 ]
+
+__getattr__ = first_use(
+    __name__,
+    {
+        "compensation": "compensate compensate_path",
+        "knowledge": "Knowledge Predicted knowledge_of",
+        "maps": "Acceptance AgainstDesign ComplianceMap DesignParameter Grid Place accepted map_compliance",
+        "maps.verdict": "DESIGN FOUNDATION LIMIT NOTHING_LEFT_OUT SUPPORTED_EVERYWHERE UNCERTAINTY_KNOWN",
+        "paths": "DEVIATION_COMPONENTS PARTS PartOfDeviation PathPrediction Piece PieceDeviation "
+        "TOOL deviations known_deviation path_deviation predict simulated_points",
+        "scales": "TYPICAL_COMPLIANCE TYPICAL_LEVER compliance_scales parameter_scales",
+        "support": "SUPPORTED unsupported_share",
+        "tool_compliances": "ToolCompliance collinear_stiffness_of compliance_along entry_rows tool_compliance",
+        "virtual": "functionals virtual_observations",
+    },
+)

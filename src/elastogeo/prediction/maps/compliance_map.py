@@ -29,7 +29,7 @@ from elastogeo.prediction.maps.verdict import (
     supported_everywhere,
     uncertainty_known,
 )
-from elastogeo.prediction.tool_compliance import TRANSLATION, entry_rows, tool_compliance, unit_direction, weights_of
+from elastogeo.prediction.tool_compliances import TRANSLATION, entry_rows, tool_compliance, unit_direction, weights_of
 
 SOFTEST = "softest"
 

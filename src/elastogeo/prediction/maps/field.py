@@ -15,7 +15,7 @@ from elastogeo.machine import Array
 from elastogeo.prediction.knowledge import Knowledge, Predicted, Span, narrow
 from elastogeo.prediction.maps.places import Grid
 from elastogeo.prediction.support import SUPPORTED
-from elastogeo.prediction.tool_compliance import TRANSLATION, entry_rows, weights_of
+from elastogeo.prediction.tool_compliances import TRANSLATION, entry_rows, weights_of
 
 BLOCK = 20_000
 """Places at a time: what bounds the memory."""

@@ -15,7 +15,7 @@ from elastogeo.observe import Campaign
 from elastogeo.prediction.maps.acceptance import Acceptance
 from elastogeo.prediction.maps.design import AgainstDesign
 from elastogeo.prediction.maps.places import Grid
-from elastogeo.prediction.tool_compliance import ToolCompliance
+from elastogeo.prediction.tool_compliances import ToolCompliance
 from elastogeo.result import Result
 
 Flags = NDArray[np.bool_]
