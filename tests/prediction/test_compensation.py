@@ -6,6 +6,9 @@ import pytest
 import elastogeo as eg
 from elastogeo.errors import InputError, UnsupportedError
 from elastogeo.formats import read_back
+from elastogeo.machine import parse_topology
+from elastogeo.machine.machine import Machine
+from elastogeo.observe import MachineTest, Positioning, Run
 from tests.prediction.positioned_axes import TARGETS, axis_test
 
 BACKLASH = 0.006
@@ -169,3 +172,40 @@ def test_the_one_point_check_says_what_a_wrong_sign_would_show():
     facts = next(check for check in found.verdict if check.name == "sign sure").facts
     assert facts["after"] == pytest.approx(0.0, abs=1e-6)
     assert facts["wrong"] == pytest.approx(2 * facts["before"], abs=1e-5)
+
+
+def test_a_control_with_one_curve_leaves_the_reversal_and_says_so():
+    """The volumetric file has no direction: half of the backlash stays on either side, and is not blamed on the points."""
+    found = compensated(control="isg", noise=1e-5)
+    assert found["E_XX"].written.one_sided
+    assert [(out.names, out.reason, out.why) for out in found.left_out] == [
+        (("B_XX",), "control", "it has one curve for both directions here")
+    ]
+    assert np.abs(true_residual(found, screw)) == pytest.approx(BACKLASH / 2, abs=2e-4)
+    assert np.abs(found["E_XX"].residual.value) == pytest.approx(BACKLASH / 2, abs=2e-4)
+    assert checks(found)["points close enough"]
+    assert checks(found)["within the control's means"] is False
+
+
+def test_a_rotary_axis_is_compensated_in_seconds_of_arc():
+    """A turn of C by an angular sensor: 4 arcsec of eccentric graduation, read at nine targets."""
+    random = np.random.default_rng(0)
+    targets = np.deg2rad([0.0, 47, 92, 133, 181, 224, 272, 315, 358])
+    columns = {name: [] for name in ("cycle", "direction", "target", "deviation")}
+    for cycle in range(1, 6):
+        for sense in (1.0, -1.0):
+            columns["cycle"].append(np.full(9, float(cycle)))
+            columns["direction"].append(np.full(9, sense))
+            columns["target"].append(targets)
+            columns["deviation"].append(2e-5 * np.sin(targets) - 1e-5 * sense + random.normal(0, 5e-7, 9))
+    run = Run("1", {name: np.concatenate(parts) for name, parts in columns.items()})
+    test = MachineTest("C", Machine("m", parse_topology("wCFXYZt")), Positioning("C"), (run,))
+    found = eg.compensate(eg.evaluate_positioning(test))
+    one = found["E_CC"]
+    assert one.error.is_angular
+    assert one.before[0] == pytest.approx(3e-5, rel=0.1)
+    assert one.bound < 2e-6
+    rows = found.files["c.comp"].decode().splitlines()
+    place, forth, back = map(float, rows[2].split())
+    assert place == pytest.approx(92.0)
+    assert [forth - place, back - place] == pytest.approx(np.rad2deg([1e-5, 3e-5]), abs=1e-4)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+import numpy as np
+
 from elastogeo.errors import InputError
 from elastogeo.formats import CompensationFormat, compensation_format, compensation_text, read_back
 from elastogeo.identification import Identification, PositioningResults
@@ -57,6 +59,7 @@ def compensate(
     files = compensation_text(list(chosen.values()), control, values) if chosen else {}
     applied = {table.name: table for table in read_back(files, control, values)}
     errors = tuple(CompensatedError(one, applied[one.table.name]) for one in found if one.table.name in chosen)
+    left += [out for one in errors for out in _one_curve(one)]
     return Compensation(
         campaign=campaign,
         control=form.name,
@@ -114,6 +117,15 @@ def _left_out(found: FoundError, form: CompensationFormat) -> Iterator[LeftOut]:
     for part in found.parts:
         if not part.is_certain:
             yield LeftOut(part.names, name, _reason(part), part.size, part.doubt)
+
+
+def _one_curve(error: CompensatedError) -> Iterator[LeftOut]:
+    """What differs by direction, where the control has one curve for both."""
+    certain = error.found.certain()
+    if error.written.one_sided and certain is not None and not certain.one_sided:
+        parts = [part for part in error.found.parts if part.is_certain and not np.array_equal(*part.value.T)]
+        names = tuple(name for part in parts for name in part.names)
+        yield LeftOut(names, error.error.name, "control", why="it has one curve for both directions here")
 
 
 def _reason(part: ErrorPart) -> str:

@@ -101,11 +101,15 @@ class CompensatedError(ByValue):
 
     @property
     def by_interpolation(self) -> float:
-        """Greatest part of what is left [mm or rad] that comes of the points and the rounding of the file."""
+        """Greatest part of what is left [mm or rad] that comes of the points and the rounding of the file.
+
+        What a control with one curve leaves of a reversal is not counted.
+        """
         chosen = self.found.certain()
         if chosen is None:
             return 0.0
-        return float(np.abs(chosen.value - self.written.at(chosen.position)).max())
+        apart = chosen.value - self.written.at(chosen.position)
+        return float(np.abs(apart.mean(axis=1) if self.written.one_sided else apart).max())
 
 
 def _greatest(table: ErrorTable) -> tuple[float, float]:

@@ -92,8 +92,8 @@ def uncertainty_known(facts: Facts, passed: bool | None) -> str:
 def within_the_controls_means(facts: Facts, passed: bool | None) -> str:
     """What the control has no table for."""
     if passed:
-        return "The control has a table for every error that was found."
-    return f"The control has no table for {several(facts['tables'])}: {'; '.join(facts['why'])}. It is left as it is."
+        return "The control has a table for everything that was found."
+    return f"The control leaves {several(facts['names'])} of {several(facts['tables'])}: {'; '.join(facts['why'])}."
 
 
 @says("path corrected")
