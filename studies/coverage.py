@@ -24,28 +24,23 @@ from elastogeo.errors import DegreesOfFreedomError
 from elastogeo.estimate import solve_by_run
 from elastogeo.identification import confounding_of, effects_of, systems_of, uncertainty_budget
 from elastogeo.observe import KnownInfluence, MachineTest, Question
-from studies.bar_tests import LAYOUTS, Layout, make_test
+from studies.bar_tests import FORCE_SCALE, FORCE_SCATTER, LAYOUTS, SET_ANEW, Layout, make_test
 from studies.noise import NOISES
 from studies.rates import wilson
 from studies.roller_coverage import ROLLER, roller_covered
 from studies.static_coverage import STATIC, static_covered
 from studies.truth import BALL_BAR, TABLE_5_5, Truth, with_values
 
-FORCE_SCALE = 0.01
 BAR = (5e-4, 9e-4)
-"""Relative standard uncertainty of the force, and those of the bar [mm]: its calibration and its temperature."""
+"""Standard uncertainties of the bar [mm]: its calibration and its temperature."""
 
 CASES: dict[str, Layout] = {
-    "loaded bar, new": Layout((36.0, 238.0, 490.0, 742.0) * 2),
+    "loaded bar, new": LAYOUTS["8 runs"],
     "7 runs": LAYOUTS["7 runs"],
     "15 runs": LAYOUTS["15 runs"],
     "three pairs": LAYOUTS["three pairs"],
 }
 """The layouts that print intervals."""
-
-SET_ANEW = "force set anew"
-"""White noise, and a force that each run sets again to 0.2 %, as bars do: of loaded layouts."""
-FORCE_SCATTER = 0.002
 
 TOO_FEW = ("one run", "two runs")
 """Those that print none."""

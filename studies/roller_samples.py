@@ -15,6 +15,9 @@ from studies.ball_roller import ENGAGEMENT, make_roller_test, table_6_6
 SPRING, SETUP, GREATEST = 7e-5, 1 / 15e3, 1300.0
 """Compliance of machine and set-up [mm/N]; force near the greatest engagement [N]."""
 
+LOSSES, PER_CURRENT = 0.25, 0.01
+"""Relative standard uncertainties: of losses that are not stated, and of the force per current as it is stated."""
+
 RIG = Rig(1 / 2650.0, standard_uncertainty=4e-6)
 
 
@@ -39,6 +42,8 @@ class Mapped:
         Gain of the force from the currents against a dynamometer; None for none.
     path : float [mm]
         By which the radius is off.
+    drives_off : bool
+        Whether motor constants and the losses of drives that are driven back are off, by as much as is stated of them.
     """
 
     share: ClassVar[float] = 0.25
@@ -49,12 +54,13 @@ class Mapped:
     rig: float | None = None
     dynamometer: float | None = None
     path: float = 0.0
+    drives_off: bool = False
 
     def draw(self, seed: tuple[int, ...]) -> object:
         """The map."""
         random = np.random.default_rng(seed)
         first, second = (int(random.integers(2**31)) for _ in range(2))
-        test = self._test(first, 0.0)
+        test = self._test(first, 0.0, random if self.drives_off else None)
         if self.dynamometer is not None:
             test = self._measured(test, random)
         if self.rig is None:
@@ -79,8 +85,12 @@ class Mapped:
             low, high = (middle, high) if yielded < engagement - self.path else (low, middle)
         return low
 
-    def _test(self, seed: int, rig: float) -> MachineTest:
+    def _test(self, seed: int, rig: float, random: np.random.Generator | None = None) -> MachineTest:
         stated = {"back_efficiency": self.back} if self.stated else {}
+        if random is not None:
+            back = self.back + LOSSES * (1 - self.back) * random.standard_normal()
+            gains = 1 + PER_CURRENT * random.standard_normal(2)
+            return _with_gains(replace(self, back=back)._test(seed, rig), gains)
         if self.law == "table 6.6":
             return table_6_6(seed=seed, back=self.back, **stated)
         chosen = ENGAGEMENT[list(self.engagements)]
@@ -105,6 +115,13 @@ class Mapped:
             )
             runs.append(replace(run, columns={**run.columns, "force_x": pair[0], "force_y": pair[1]}))
         return replace(test, runs=tuple(runs))
+
+
+def _with_gains(test: MachineTest, gains: np.ndarray) -> MachineTest:
+    """With motors whose constants are off by these factors."""
+    off = dict(zip(("current_x", "current_y"), gains, strict=True))
+    scaled = [{name: column / off.get(name, 1.0) for name, column in run.columns.items()} for run in test.runs]
+    return replace(test, runs=tuple(replace(run, columns=of) for run, of in zip(test.runs, scaled, strict=True)))
 
 
 @dataclass(frozen=True)

@@ -28,13 +28,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--trials", type=int, default=400, help="draws where nothing is wrong (400)")
     parser.add_argument("--faults", type=int, default=100, help="draws with a fault (100)")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes (one a core)")
+    parser.add_argument("--noise", default="", help="one of the noises alone; the counts of the others stay")
     parser.add_argument("--page", action="store_true", help="run nothing, write the page from what is kept")
     given = parser.parse_args(arguments)
     known = studies()
     if unknown := set(given.studies) - known.keys():
         parser.error(f"there is no study {', '.join(sorted(unknown))}; there are {', '.join(known)}")
     if not given.page:
-        run({name: known[name] for name in given.studies or known}, given.trials, given.faults, given.workers)
+        run({name: known[name] for name in given.studies or known}, given.trials, given.faults, given.workers, given.noise)
     found = {name: rates_of(study, read_counts(name)) for name, study in known.items()}
     PAGE.write_text(page(known, found), encoding="utf-8")
     for name, study in known.items():
@@ -44,13 +45,15 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def run(chosen: dict[str, Study], trials: int, faults: int, workers: int) -> None:
+def run(chosen: dict[str, Study], trials: int, faults: int, workers: int, noise: str = "") -> None:
     """Count the chosen studies, group by group, and keep the counts of each as it is done."""
     for names in groups(chosen):
-        every = [cell for name in names for cell in chosen[name].cells]
+        every = [cell for name in names for cell in chosen[name].cells if noise in ("", cell.noise)]
         found = rates(every, lambda cell: draws(cell, trials, faults), workers)
         for name in names:
-            write_counts(name, {cell.key: dict(found[cell].words) for cell in chosen[name].cells})
+            kept, cells = read_counts(name), chosen[name].cells
+            counted = {cell.key: dict(found[cell].words) for cell in cells if cell in found}
+            write_counts(name, {cell.key: (kept | counted)[cell.key] for cell in cells if cell.key in kept | counted})
         print(f"counted: {', '.join(names)}", flush=True)
 
 

@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.signal import lfilter
 
-from elastogeo.drive.force_agreement import ForceRecord, compare_forces, find_delay
+from elastogeo.drive.force_agreement import ForceRecord, SharedError, compare_forces, find_delay
 from elastogeo.errors import DegreesOfFreedomError, InputError, UnsupportedError
 from elastogeo.machine import Array
 
@@ -133,6 +133,49 @@ def test_a_scale_known_to_a_part_only_widens_the_gain() -> None:
     assert (bare.gain_is_one, stated.gain_is_one) == (False, True)
     assert stated.gain_uncertainty == pytest.approx(np.hypot(bare.gain_uncertainty, 0.02 * bare.gain), rel=1e-12)
     assert stated.offset_interval == bare.offset_interval
+
+
+def test_what_all_runs_share_moves_gain_and_offset_by_what_it_is() -> None:
+    """A zero that is off is offset alone, a force that is 2 % off is gain alone; no scatter shows either."""
+    plain = record(engagement, 200.0)
+    other = ForceRecord(plain.time, plain.force + 5 * np.random.default_rng(4).standard_normal(len(plain.time)))
+    zero = SharedError("zero", 0.5, np.inf, (np.full(len(plain.time), 10.0),))
+    part = SharedError("part", 0.02, np.inf, (plain.force,))
+    bare, stated = (compare_forces([(other, plain)], 0.0, shared=shared) for shared in ((), (zero, part)))
+    assert (stated.gain, stated.offset) == (bare.gain, bare.offset)
+    assert stated.offset_uncertainty == pytest.approx(np.hypot(bare.offset_uncertainty, 5.0), rel=1e-9)
+    assert stated.gain_uncertainty == pytest.approx(np.hypot(bare.gain_uncertainty, 0.02), rel=1e-9)
+
+
+def test_directions_of_one_run_are_one_run() -> None:
+    plain = record(engagement, 200.0)
+    runs = [(ForceRecord(plain.time, plain.force + k), plain) for k in range(8)]
+    by_direction = compare_forces(runs, 0.0)
+    by_run = compare_forces(runs, 0.0, names=[f"run {k // 2}" for k in range(8)])
+    assert (by_direction.units, by_run.units) == (8, 4)
+    assert by_run.offset_uncertainty > 1.2 * by_direction.offset_uncertainty
+
+
+def test_sound_forces_agree_at_their_rate_though_all_runs_share_friction() -> None:
+    """Simulated: 4 N of friction identified once, from 4 runs, and 1 N left by each run; 200 trials, tolerance 4 sigma."""
+    random, trials = np.random.default_rng(12), 200
+    time = np.arange(0.0, 6.0, 0.03)
+    force, sense = 200 * np.sin(2 * np.pi * time / 3.0) + 100, np.sign(np.cos(2 * np.pi * time / 3.0))
+    plain = ForceRecord(time, force)
+    inside, agree = np.zeros(2), 0
+    for _ in range(trials):
+        drawn = 4 * random.standard_normal(4)
+        shared = SharedError("friction", float(drawn.std(ddof=1)) / 2, 3.0, (sense + 1,) * 6)
+        off = drawn.mean() * (sense + 1)
+        pairs = [(ForceRecord(time, force + off + random.standard_normal()), plain) for _ in range(6)]
+        found = compare_forces(pairs, 0.0, shared=[shared])
+        inside += [
+            abs(found.gain - 1) <= np.ptp(found.gain_interval) / 2,
+            abs(found.offset) <= np.ptp(found.offset_interval) / 2,
+        ]
+        agree += found.agrees
+    assert_allclose(inside[1] / trials, 0.95, atol=4 * np.sqrt(0.95 * 0.05 / trials))
+    assert agree / trials > 0.95 - 4 * np.sqrt(0.95 * 0.05 / trials)
 
 
 def test_a_periodic_force_has_no_distinct_delay_beyond_half_a_period() -> None:

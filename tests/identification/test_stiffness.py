@@ -85,7 +85,7 @@ def test_secants_increments_and_model_hold_it_too(found: StiffnessMap) -> None:
 
 def test_the_interval_holds_what_drives_and_setup_bring(found: StiffnessMap) -> None:
     labels = set(found.overall.labels)
-    assert {"force per current of X", "friction and inertia of Y", "losses of X when driven back"} <= labels
+    assert {"force per current of X", "friction and inertia of Y", "losses when driven back"} <= labels
     # 1 % of the force per current is 1 % of the whole compliance, the set-up's included, in the direction of one drive
     contribution = found.overall.contribution("force per current of X")[0]
     assert_allclose(contribution, 0.01 * (TRUTH["C_XXX"] + 1 / 15e3), rtol=0.03)

@@ -151,10 +151,20 @@ def test_drives_that_are_driven_back_do_not_leave_the_interval(back: float) -> N
     assert passed(found)["losses when driven back known"] is None
 
 
+def test_losses_that_are_not_stated_are_off_together() -> None:
+    """One rule gives the losses of all drives: where two share the force, what it puts wrong adds up, not its squares."""
+    found = map_stiffness(deflecting(lambda force: SPRING * force))
+    alone, both = found.overall.contribution("losses when driven back")[[0, 3]]
+    share = found.overall.contribution("force per current of X")[3] / found.overall.contribution("force per current of X")[0]
+    # At 45 degrees each drive holds half of the force along the line of centres; in quadrature the two would give 0.71.
+    assert share == pytest.approx(0.5, abs=0.05)
+    assert both / alone == pytest.approx(1.0, abs=0.15)
+
+
 def test_a_stated_efficiency_back_is_used_and_brings_no_doubt_of_its_own() -> None:
     found = map_stiffness(deflecting(lambda force: SPRING * force, back=0.8, back_efficiency=0.8))
     assert_allclose(found.overall.compliance, SPRING, rtol=0.04)
-    assert "losses of X when driven back" not in found.overall.labels
+    assert "losses when driven back" not in found.overall.labels
     assert passed(found)["losses when driven back known"]
 
 

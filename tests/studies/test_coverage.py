@@ -9,8 +9,8 @@ from scipy import stats
 
 from elastogeo.identification import evaluate_static, identify
 from elastogeo.observe import Question
-from studies.bar_tests import make_test
-from studies.coverage import CASES, SET_ANEW, TOO_FEW, Coverage, covered, drawn, noises_of, page_of, row_of, rows_of
+from studies.bar_tests import SET_ANEW, make_test
+from studies.coverage import CASES, TOO_FEW, Coverage, covered, drawn, noises_of, page_of, row_of, rows_of
 from studies.noise import NOISES
 from studies.roller_coverage import ROLLER
 from studies.static_coverage import STATIC, made, shown, static_covered

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
         effort_from_force,
         force_from_effort,
     )
-    from elastogeo.drive.force_agreement import Delay, ForceAgreement, ForceRecord, compare_forces, find_delay
+    from elastogeo.drive.force_agreement import Delay, ForceAgreement, ForceRecord, SharedError, compare_forces, find_delay
     from elastogeo.drive.known_balance import (
         KnownBalance,
         MotorParameter,
@@ -60,6 +60,7 @@ __all__ = [
     "RunScore",
     "Searched",
     "SetupCompliance",
+    "SharedError",
     "Standstill",
     "Structure",
     "TorqueBalance",
@@ -105,7 +106,7 @@ __getattr__ = first_use(
         "balance": "BalanceFit Searched TorqueBalance free_labels identify_balance units_of",
         "differentiator": "Derivatives differentiate gain smoothed",
         "feed_drive": "FeedDrive current_from_effort effort_from_current effort_from_force force_from_effort",
-        "force_agreement": "Delay ForceAgreement ForceRecord compare_forces find_delay",
+        "force_agreement": "Delay ForceAgreement ForceRecord SharedError compare_forces find_delay",
         "known_balance": "KnownBalance MotorParameter balance_effort known_terms known_torque_balance motor_parameters",
         "measurement": "DriveTest EVERY_LOG",
         "model": "Mask PLAIN TorqueModel motion_columns usable",

@@ -5,7 +5,8 @@ greatest, found within bounds and refined between the samples. Then `F_current =
 least squares. Ordinary, because the noise of a dynamometer is small against the range of its forces and all friction left
 in the current is on the other side; noise s of the reference would shrink the gain by the part `s^2 / var(F)`, and where s
 is known that is put right (errors in both variables, by moments). The residuals are friction, cogging and ripple, which
-hold on from reading to reading: the uncertainty counts runs, or long blocks of one run, not readings.
+hold on from reading to reading: the uncertainty counts runs, or long blocks of one run, not readings. What all runs share
+(a motor constant, friction that was identified once) no scatter shows; it is stated, and moves gain and offset together.
 """
 
 from __future__ import annotations
@@ -103,6 +104,27 @@ class Delay:
 
 
 @dataclass(frozen=True, slots=True)
+class SharedError:
+    """What the current-based force of all runs may be off by together.
+
+    Attributes
+    ----------
+    label : str
+        Errors of one label come from one estimate, and have its degrees of freedom together.
+    standard_uncertainty : float
+        Of the quantity.
+    degrees_of_freedom : float
+    force : tuple of array, shape (m,) [N]
+        Change of the force per unit of the quantity, at the samples of the current's record: one per run.
+    """
+
+    label: str
+    standard_uncertainty: float
+    degrees_of_freedom: float
+    force: tuple[Array, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class ForceAgreement:
     """How a current-based force compares with a dynamometer's.
 
@@ -115,8 +137,12 @@ class ForceAgreement:
     gain, offset : float [N/N, N]
         `F_current = offset + gain F_dynamometer`.
     gain_uncertainty, offset_uncertainty : float
-        Standard uncertainties, with what was stated of the scale.
+        Standard uncertainties, with what is stated of the scale and of errors that all runs share.
     gain_interval, offset_interval : tuple of 2 float
+        Each by itself.
+    gain_is_one, offset_is_zero : bool
+        Whether a gain of 1 and an offset of 0 lie within the uncertainty; of both together, so that sound forces agree at
+        the stated coverage.
     rms_difference, maximum_difference : float [N]
         Of current less dynamometer as they are, gain and offset not taken off; the maximum is of the size.
     residual_std : float [N]
@@ -142,18 +168,10 @@ class ForceAgreement:
     residual_std: float
     attenuation: float
     units: int
+    gain_is_one: bool
+    offset_is_zero: bool
     by_run: bool
     coverage: float
-
-    @property
-    def gain_is_one(self) -> bool:
-        """Whether a gain of 1 lies within the uncertainty."""
-        return self.gain_interval[0] - _ROUNDING <= 1.0 <= self.gain_interval[1] + _ROUNDING
-
-    @property
-    def offset_is_zero(self) -> bool:
-        """Whether an offset of 0 lies within the uncertainty."""
-        return self.offset_interval[0] - _ROUNDING <= 0.0 <= self.offset_interval[1] + _ROUNDING
 
     @property
     def agrees(self) -> bool:
@@ -228,6 +246,8 @@ def compare_forces(
     *,
     dynamometer_noise: float = 0.0,
     scale_uncertainty: float = 0.0,
+    shared: Sequence[SharedError] = (),
+    names: Sequence[str] = (),
     coverage: float = 0.95,
 ) -> ForceAgreement:
     """Compare current-based force records with those of a dynamometer.
@@ -244,6 +264,10 @@ def compare_forces(
     scale_uncertainty : float
         Relative standard uncertainty of the scales of both forces that holds in all runs (motor constant, efficiency,
         calibration of the dynamometer): it widens the uncertainty of the gain.
+    shared : sequence of SharedError
+        What else holds in all runs.
+    names : sequence of str
+        Of the run that each pair is of, where several are of one: they count as one. By default each is of its own.
     coverage : float
 
     Raises
@@ -268,17 +292,22 @@ def compare_forces(
             f"the dynamometer's force varies by {float(np.std(known)):.3g} N against a noise of {dynamometer_noise:.3g} N; "
             f"that gives no gain, measure at a greater range of forces"
         )
-    units, by_run = _independent(pairs)
+    units, by_run = _independent(_by_name(pairs, names))
     solution = solve_by_run([_line(*unit) for unit in units], ("gain", "offset"))
     # Moments: var(F) is too great by the noise; the line still goes through the means.
     put_right = np.array([[1.0, 0.0], [-attenuation * known.mean(), 1.0 - attenuation]]) / (1 - attenuation)
     gain, offset = map(float, put_right @ solution.values)
-    u = np.sqrt(np.diag(first_order(put_right, solution.covariance)))
-    degrees = solution.degrees_of_freedom
-    u_gain = np.array([[float(u[0]), abs(gain) * scale_uncertainty]])
-    freedom = effective_degrees_of_freedom(u_gain, np.array([degrees[0], np.inf]))
-    half_gain = float(coverage_factor(freedom, coverage)[0] * np.linalg.norm(u_gain))
-    half_offset = float(coverage_factor(degrees[1:], coverage)[0] * u[1])
+    scatter = np.sqrt(np.diag(first_order(put_right, solution.covariance)))
+    changes = [_changed(runs, delays, known, error) * error.standard_uncertainty for error in shared]
+    parts = np.column_stack([scatter, [abs(gain) * scale_uncertainty, 0.0], *(put_right @ change for change in changes)])
+    freedoms = [
+        [degrees, np.inf, *(error.degrees_of_freedom for error in shared)] for degrees in solution.degrees_of_freedom
+    ]
+    labels = ["scatter", "scale", *(error.label for error in shared)]
+    freedom = effective_degrees_of_freedom(parts, np.array(freedoms), labels)
+    u = np.linalg.norm(parts, axis=1)
+    half = coverage_factor(freedom, coverage) * u
+    within = np.abs([gain - 1.0, offset]) <= coverage_factor(freedom, (1.0 + coverage) / 2) * u + _ROUNDING
     difference = seen - known
     residual = seen - offset - gain * known
     return ForceAgreement(
@@ -286,10 +315,12 @@ def compare_forces(
         readings=len(seen),
         gain=gain,
         offset=offset,
-        gain_uncertainty=float(np.linalg.norm(u_gain)),
+        gain_uncertainty=float(u[0]),
         offset_uncertainty=float(u[1]),
-        gain_interval=(gain - half_gain, gain + half_gain),
-        offset_interval=(offset - half_offset, offset + half_offset),
+        gain_interval=(gain - float(half[0]), gain + float(half[0])),
+        offset_interval=(offset - float(half[1]), offset + float(half[1])),
+        gain_is_one=bool(within[0]),
+        offset_is_zero=bool(within[1]),
         rms_difference=float(np.sqrt(np.mean(difference**2))),
         maximum_difference=float(np.abs(difference).max()),
         residual_std=float(np.sqrt(np.sum(residual**2) / max(len(residual) - 2, 1))),
@@ -361,6 +392,12 @@ def _pearson(one: Array, other: Array) -> float:
 
 def _paired(current: ForceRecord, dynamometer: ForceRecord, delay: float) -> tuple[Array, Array]:
     """Forces of the dynamometer and of the current at the samples of the coarser record, where both are known."""
+    moved, at = current.time - delay, _common(current, dynamometer, delay)
+    return np.interp(at, dynamometer.time, dynamometer.force), np.interp(at, moved, current.force)
+
+
+def _common(current: ForceRecord, dynamometer: ForceRecord, delay: float) -> Array:
+    """Samples of the coarser record, on the clock of the dynamometer, at which both forces are known."""
     moved = current.time - delay
     first, last = max(moved[0], dynamometer.time[0]), min(moved[-1], dynamometer.time[-1])
     at = max((moved, dynamometer.time), key=lambda time: float(np.median(np.diff(time))))
@@ -369,7 +406,28 @@ def _paired(current: ForceRecord, dynamometer: ForceRecord, delay: float) -> tup
         raise UnsupportedError(
             f"the force records share {len(at)} samples; they need 8 at least, bring their clocks together"
         )
-    return np.interp(at, dynamometer.time, dynamometer.force), np.interp(at, moved, current.force)
+    return np.asarray(at)
+
+
+def _changed(
+    runs: Sequence[tuple[ForceRecord, ForceRecord]], delays: Sequence[Delay], known: Array, error: SharedError
+) -> Array:
+    """By how much a unit of a shared error changes gain and offset, shape (2,)."""
+    moved = [
+        np.interp(_common(*run, delay.seconds), run[0].time - delay.seconds, force)
+        for run, delay, force in zip(runs, delays, error.force, strict=True)
+    ]
+    return np.asarray(np.polyfit(known, np.concatenate(moved), 1))
+
+
+def _by_name(pairs: Sequence[tuple[Array, Array]], names: Sequence[str]) -> list[tuple[Array, Array]]:
+    """The pairs, those of one run as one."""
+    if not names:
+        return list(pairs)
+    found: dict[str, list[tuple[Array, Array]]] = {}
+    for name, pair in zip(names, pairs, strict=True):
+        found.setdefault(name, []).append(pair)
+    return [(np.concatenate([k for k, _ in own]), np.concatenate([s for _, s in own])) for own in found.values()]
 
 
 def _independent(pairs: Sequence[tuple[Array, Array]]) -> tuple[list[tuple[Array, Array]], bool]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil, isfinite
 
@@ -63,7 +63,9 @@ def draw_estimates(factor: Factor, sigma: float, trials: int, random: np.random.
     return np.asarray(draws)
 
 
-def effective_degrees_of_freedom(contributions: Array, degrees_of_freedom: Array) -> Array:
+def effective_degrees_of_freedom(
+    contributions: Array, degrees_of_freedom: Array, labels: Sequence[str] | None = None
+) -> Array:
     """Welch-Satterthwaite (JCGM 100, G.2b), shape (q,).
 
     Parameters
@@ -72,7 +74,16 @@ def effective_degrees_of_freedom(contributions: Array, degrees_of_freedom: Array
         Standard uncertainty that each independent input contributes to each output.
     degrees_of_freedom : array, shape (n,) or (q, n)
         Of the inputs; may be infinite.
+    labels : sequence of str, length n, optional
+        Inputs of one label have their size from one estimate (the parts of one covariance): together they have its degrees
+        of freedom, the least that any of them has, and not each its own.
     """
+    if labels is not None:
+        kinds = list(dict.fromkeys(labels))
+        of_kind = [[k for k, label in enumerate(labels) if label == kind] for kind in kinds]
+        degrees = np.broadcast_to(degrees_of_freedom, contributions.shape)
+        degrees_of_freedom = np.column_stack([degrees[:, own].min(axis=1) for own in of_kind])
+        contributions = np.column_stack([np.linalg.norm(contributions[:, own], axis=1) for own in of_kind])
     total = (contributions**2).sum(axis=1)
     spread = (contributions**4 / degrees_of_freedom).sum(axis=1)
     return np.asarray(np.divide(total**2, spread, out=np.full(len(total), np.inf), where=spread > 0))

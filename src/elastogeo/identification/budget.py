@@ -155,7 +155,7 @@ def budget_of(solution: Solution, moments: Moments) -> Budget:
     contributions = np.column_stack([scatter, np.abs(systematic).T])
     degrees = np.column_stack([solution.degrees_of_freedom, np.tile(freedoms, (len(scatter), 1))])
     covariance = solution.covariance + systematic.T @ systematic
-    effective = effective_degrees_of_freedom(contributions, degrees)
+    effective = effective_degrees_of_freedom(contributions, degrees, [SCATTER, *(e.influence.label for e in effects)])
     half = coverage_factor(effective) * np.sqrt(np.diag(covariance))
     return Budget(
         labels=solution.labels,

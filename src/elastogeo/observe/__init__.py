@@ -17,6 +17,7 @@ from elastogeo.observe.observations import Observations, ObservedInfluence, chec
 from elastogeo.observe.positioning import Approaches, Positioning, approaches, distinct
 from elastogeo.observe.procedure import Procedure
 from elastogeo.observe.rollers.ball_roller import BallRoller, Pressed
+from elastogeo.observe.rollers.force import LOSSES
 from elastogeo.observe.rollers.rig import Rig
 from elastogeo.observe.run import Run
 from elastogeo.observe.setup import Respond, Setup, SetupFact
@@ -30,6 +31,7 @@ from elastogeo.observe.template import Template
 __all__ = [
     "ASSUMED",
     "BAR",
+    "LOSSES",
     "PLANES",
     "PROBES",
     "SIX",

@@ -4,13 +4,16 @@ from studies.rates import Cell, Named, Study
 from studies.roller_samples import Mapped
 
 CHECK = "force agrees with the dynamometer"
+FIVE = "5 engagements"
 
 STUDY = Study(
     CHECK,
-    "A dynamometer with 3 N of noise; the fault is a force that is 10 % too great.",
+    "A dynamometer with 3 N of noise; motor constants and losses of the drives are exact, or off by what is stated of them. "
+    "The fault is a force that is 10 % too great.",
     (
-        Cell("the same force", "5 engagements", "white", Mapped(dynamometer=1.0), Named(CHECK), most=0.05),
-        Cell("10 % too great", "5 engagements", "white", Mapped(dynamometer=1.1), Named(CHECK), least=0.95, short=1),
+        Cell("the same force, drives exact", FIVE, "white", Mapped(dynamometer=1.0), Named(CHECK), most=0.05),
+        Cell("the same force", FIVE, "white", Mapped(dynamometer=1.0, drives_off=True), Named(CHECK), most=0.05),
+        Cell("10 % too great", FIVE, "white", Mapped(dynamometer=1.1, drives_off=True), Named(CHECK), least=0.95, short=1),
     ),
     order=2,
 )

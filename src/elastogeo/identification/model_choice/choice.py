@@ -14,11 +14,12 @@ from dataclasses import replace
 import numpy as np
 from scipy.special import stdtr
 
+from elastogeo.identification.influences import Effect
 from elastogeo.identification.model_choice.comparison import Comparison, prepared
 from elastogeo.identification.model_choice.evidence import Evidence
 from elastogeo.identification.model_choice.families import Family, families, held, mixtures
 from elastogeo.identification.model_choice.fits import fit
-from elastogeo.identification.model_choice.following import OffLevel, off_level
+from elastogeo.identification.model_choice.following import OffLevel
 from elastogeo.identification.model_choice.result import CONSTANT, Candidate, ModelChoice
 from elastogeo.identification.systems import Systems
 from elastogeo.machine import Machine
@@ -39,7 +40,13 @@ BASES = 3
 """How many of the best models, and the best of each place, are tried together with others if none suffices by itself."""
 
 
-def compare_models(machine: Machine, systems: Systems, retained: Sequence[str], angular: bool = True) -> ModelChoice:
+def compare_models(
+    machine: Machine,
+    systems: Systems,
+    retained: Sequence[str],
+    angular: bool = True,
+    effects: Sequence[Effect] = (),
+) -> ModelChoice:
     """Compare the model that was asked with richer ones.
 
     Parameters
@@ -51,8 +58,10 @@ def compare_models(machine: Machine, systems: Systems, retained: Sequence[str], 
         Parameters of the model.
     angular : bool
         Whether the readings count along an angle.
+    effects : sequence of Effect
+        Of what is known to be uncertain: a level that is off by no more follows the others.
     """
-    chosen = prepared(machine, systems, retained, angular)
+    chosen = prepared(machine, systems, retained, angular, effects)
     first = chosen.evidence()
     tested = tuple(name for label in first.labels for name in chosen.owners[label])
     few = tuple(name for label, names in chosen.owners.items() if label not in first.labels for name in names)
@@ -67,14 +76,14 @@ def compare_models(machine: Machine, systems: Systems, retained: Sequence[str], 
     asked = fit(chosen, Family(CONSTANT, ()), first.p_value, first.p_value >= MISSING)
     if {chosen.places[label] for label in first.labels} != {chosen.places[label] for label in chosen.owners} or not tested:
         return found([asked], None, (), None)
-    off = off_level(chosen.shapes, chosen.model, chosen.levels)
+    off = chosen.off_level()
     if asked.sufficient:
         return found([asked], CONSTANT, (CONSTANT,), off)
     chosen = chosen.renewed().searched()
     richer = _richer(chosen, asked, first)
     enough = [candidate for candidate in richer if candidate.sufficient]
     best = enough[0] if enough else min(richer, key=_left_out, default=asked)
-    still = off_level(chosen.shapes, [*chosen.model, *best.added], chosen.levels)
+    still = chosen.off_level(best.added)
     if off is not None and (still is not None or not enough) and _follows_without(chosen, off):
         return found([asked, *richer], CONSTANT, (CONSTANT,), off)
     return found([asked, *richer], best.name, _alike(richer, best, asked), still)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from elastogeo.estimate import merge, solve
+from elastogeo.identification.influences import Effect
 from elastogeo.identification.model_choice.candidates import (
     COMPLIANCE,
     EXPONENTS,
@@ -18,8 +19,9 @@ from elastogeo.identification.model_choice.candidates import (
     offered,
 )
 from elastogeo.identification.model_choice.evidence import SEEN, Evidence, evidence, weights_by_order
+from elastogeo.identification.model_choice.following import OffLevel, off_level
 from elastogeo.identification.model_choice.shapes import Shapes, shapes_of
-from elastogeo.identification.systems import Systems
+from elastogeo.identification.systems import RunSystem, Systems
 from elastogeo.machine import Array, Machine
 
 CONTACT = "every contact alike"
@@ -68,6 +70,10 @@ class Comparison:
         Columns of a contact law, for each of `NODES`; the last is that of all together.
     elastic : tuple of str
         Compliances of the model.
+    set_again : array, shape (runs,)
+        Relative standard uncertainty with which the force of each run is set.
+    influences : tuple of str
+        Labels of the columns that hold what one standard uncertainty of each influence moves.
     exponent : float or None
         Of the contact columns that were searched.
     """
@@ -80,6 +86,8 @@ class Comparison:
     levels: tuple[tuple[float, tuple[int, ...]], ...]
     contact: Array
     elastic: tuple[str, ...]
+    set_again: Array
+    influences: tuple[str, ...] = ()
     exponent: float | None = None
 
     @property
@@ -101,6 +109,16 @@ class Comparison:
         """What a model with these columns besides lacks, as all runs say or all but some."""
         shapes = self.shapes.without(without) if without else self.shapes
         return evidence(shapes, [*self.model, *added], self.shares, self.least)
+
+    def off_level(self, added: Sequence[str] = ()) -> OffLevel | None:
+        """The level that does not follow the others by a model with these columns besides, if one does not."""
+        shapes, model = self.shapes, [*self.model, *added]
+        values = np.linalg.pinv(shapes.of(model)) @ shapes.reading
+        by_force = shapes.of(self.elastic) @ values[[model.index(label) for label in self.elastic]]
+        force = np.zeros((len(shapes.reading), len(shapes.rest)))
+        force[np.arange(len(force)), shapes.run] = by_force * self.set_again[shapes.run]
+        known = shapes.of(self.influences) * shapes.lengths_of(self.influences)
+        return off_level(shapes, model, self.levels, force, known)
 
     def renewed(self) -> Comparison:
         """The same with columns of a force that bends that count from the compliances at no force, not from their mean.
@@ -140,7 +158,9 @@ class Comparison:
         return replace(self, shapes=shapes, exponent=exponent)
 
 
-def prepared(machine: Machine, systems: Systems, retained: Sequence[str], angular: bool) -> Comparison:
+def prepared(
+    machine: Machine, systems: Systems, retained: Sequence[str], angular: bool, effects: Sequence[Effect] = ()
+) -> Comparison:
     """The shapes of a test with every column that is offered.
 
     Parameters
@@ -152,14 +172,19 @@ def prepared(machine: Machine, systems: Systems, retained: Sequence[str], angula
         Parameters of the model as asked.
     angular : bool
         Whether the readings count along an angle.
+    effects : sequence of Effect
+        Of what is known to be uncertain.
     """
     values = solve(merge(*(run.factor for run in systems.runs)), retained).values
     columns = offered(machine, systems, retained, values, angular)
     labels = _numbered([offer.name for offer in columns.offers])
     nodes = [f"{label} {k}" for k in range(len(NODES)) for label in columns.contact]
     gains = [f"{label} {power}" for power in ("linear", "quadratic") for label in columns.elastic]
-    blocks = [np.column_stack(of) for of in zip(columns.blocks, columns.contacts, columns.gains, strict=True)]
-    shapes = shapes_of(systems, retained, [*labels, *nodes, *gains], blocks, columns.ceilings, angular)
+    known = [_influenced(systems, k, retained, values, effects) for k in range(len(systems.runs))]
+    influences = tuple(f"influence {k}" for k in range(len(effects)))
+    blocks = [np.column_stack(of) for of in zip(columns.blocks, columns.contacts, columns.gains, known, strict=True)]
+    ceilings = np.concatenate([columns.ceilings, np.zeros(len(effects))])
+    shapes = shapes_of(systems, retained, [*labels, *nodes, *gains, *influences], blocks, ceilings, angular)
     names = [*(f"H_{label[2:]}" for label in columns.contact), CONTACT] if columns.contact else []
     amounts = np.array([values[list(retained).index(label)] for label in columns.contact])
     each = (shapes.of(nodes) * shapes.lengths_of(nodes)).reshape(len(shapes.reading), len(NODES), len(columns.contact))
@@ -169,7 +194,29 @@ def prepared(machine: Machine, systems: Systems, retained: Sequence[str], angula
     places |= dict.fromkeys(names, COMPLIANCE)
     levels = tuple((level, _at(systems, level)) for level in systems.levels)
     owners, unseen = _owners(shapes, retained, list(places))
-    return Comparison(shapes, tuple(retained), owners, unseen, places, levels, contact, columns.elastic)
+    set_again = np.array([_set_again(systems, run) for run in systems.runs])
+    return Comparison(
+        shapes, tuple(retained), owners, unseen, places, levels, contact, columns.elastic, set_again, influences
+    )
+
+
+def _influenced(systems: Systems, which: int, retained: Sequence[str], values: Array, effects: Sequence[Effect]) -> Array:
+    """By how much the readings of a run are off its model for one standard uncertainty of each effect, shape (m, e)."""
+    run, labels = systems.runs[which], [source.name for source in systems.sources]
+    degrees = {source.name: source.force_degree for source in systems.sources}
+    by_force = run.design_of(retained) @ (values * [degrees[label] for label in retained])
+    moved = np.zeros((len(run.reading), len(effects)))
+    for k, effect in enumerate(effects):
+        moved[:, k] -= effect.stretch[which] * by_force
+        if effect.shift is not None:
+            moved[:, k] += effect.shift[which]
+        if effect.columns is not None:
+            moved[:, k] -= effect.columns[which][:, [labels.index(label) for label in retained]] @ values
+    return moved * [effect.influence.standard_uncertainty for effect in effects]
+
+
+def _set_again(systems: Systems, run: RunSystem) -> float:
+    return systems.applied.spread.of(run.force) / abs(run.force) if run.force else 0.0
 
 
 def contacts(labels: Iterable[str]) -> list[str]:

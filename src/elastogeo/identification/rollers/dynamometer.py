@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from elastogeo.drive import ForceAgreement, ForceRecord, compare_forces
+from elastogeo.drive import ForceAgreement, ForceRecord, SharedError, compare_forces
 from elastogeo.errors import UnsupportedError
 from elastogeo.machine import Array
 from elastogeo.observe import Pressed, Run
@@ -75,7 +75,7 @@ def against_dynamometer(runs: Sequence[Run], pressed: Pressed) -> tuple[AgainstD
         return None, ""
     pairs = [_pair(named[name], gauge, pressed) for name, gauge in columns]
     try:
-        agreement = _compared(pairs)
+        agreement = _compared(pairs, _shared(columns, pressed), [name for name, _ in columns])
     except UnsupportedError as error:
         return None, str(error)
     forces = []
@@ -94,8 +94,21 @@ def _pair(run: Run, gauge: str, pressed: Pressed) -> tuple[ForceRecord, ForceRec
     return ForceRecord(track.time, own), ForceRecord(track.time, measured)
 
 
-def _compared(pairs: Sequence[tuple[ForceRecord, ForceRecord]]) -> ForceAgreement:
+def _shared(columns: Sequence[tuple[str, str]], pressed: Pressed) -> list[SharedError]:
+    """What drives and their friction, identified once, may put wrong in the forces of all runs."""
+    several = zip(*(pressed.forces[name].influences for name, _ in columns), strict=True)
+    directions = [pressed.tracks[name].direction[:, _GAUGES[gauge]] for name, gauge in columns]
+    return [
+        SharedError(label, size, freedom, tuple(one[-1] * along for one, along in zip(of_runs, directions, strict=True)))
+        for of_runs in several
+        for label, size, freedom, _ in of_runs[:1]
+    ]
+
+
+def _compared(
+    pairs: Sequence[tuple[ForceRecord, ForceRecord]], shared: Sequence[SharedError], names: Sequence[str]
+) -> ForceAgreement:
     try:
-        return compare_forces(pairs, MOST_DELAY)
+        return compare_forces(pairs, MOST_DELAY, shared=shared, names=names)
     except UnsupportedError:
-        return compare_forces(pairs, 0.0)
+        return compare_forces(pairs, 0.0, shared=shared, names=names)

@@ -57,7 +57,8 @@ class Stiffness:
         if not np.isfinite(self.scatter).all():
             return np.ones(len(self.scatter))
         parts = np.column_stack([self.scatter, *self.systematic])
-        return effective_degrees_of_freedom(parts, np.array([max(self.scatter_freedom, 1), *self.freedoms], dtype=float))
+        freedoms = np.array([max(self.scatter_freedom, 1), *self.freedoms], dtype=float)
+        return effective_degrees_of_freedom(parts, freedoms, ["scatter", *self.labels])
 
     @property
     def interval(self) -> Array:

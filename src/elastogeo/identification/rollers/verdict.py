@@ -9,6 +9,7 @@ import numpy as np
 from elastogeo.drive import FeedDrive
 from elastogeo.identification.check import Check
 from elastogeo.identification.rollers.result import StiffnessMap
+from elastogeo.observe import LOSSES
 
 OFFSET = 0.05
 """Share of the least deflection that the path may have for a secant to show the machine."""
@@ -80,8 +81,7 @@ def _repeated(found: StiffnessMap) -> Check:
 def _driven_back(found: StiffnessMap, drives: Sequence[FeedDrive]) -> Check:
     assumed = {drive.axis: drive.back_driven for drive in drives if drive.back_uncertainty}
     overall = found.overall
-    parts = [overall.contribution(f"losses of {axis} when driven back") for axis in assumed]
-    worst = float(np.max(np.linalg.norm(parts, axis=0) / np.abs(overall.compliance))) if parts else 0.0
+    worst = float(np.max(overall.contribution(LOSSES) / np.abs(overall.compliance))) if assumed else 0.0
     facts = {"assumed": assumed, "relative_uncertainty": worst}
     return Check("losses when driven back known", None if assumed else True, facts)
 

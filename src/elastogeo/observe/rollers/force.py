@@ -28,6 +28,9 @@ from elastogeo.machine import Array, Machine
 from elastogeo.observe.observations import ObservedInfluence
 from elastogeo.observe.rollers.track import Track
 
+LOSSES = "losses when driven back"
+"""The influence of losses that are not stated: one rule gives those of all drives, so that they are off together."""
+
 _WORST_CONDITION = 1e4
 """Of the harmonics on the samples that count, scaled: beyond it a gap in them is so wide that they would be made up."""
 
@@ -94,6 +97,7 @@ def contact_force(
     force, scatter = np.zeros(len(track.angle)), 0.0
     influences: list[tuple[str, float, float, Array]] = []
     load: dict[str, Array] = {}
+    losses = np.zeros(len(track.angle))
     for drive in drives:
         axis, balance, record = drive.axis, balances[drive.axis], track.records[drive.axis]
         driving = drives_against(machine, track, axis, tool)
@@ -106,12 +110,13 @@ def contact_force(
         if drive.relative_uncertainty:
             influences.append((f"force per current of {axis}", drive.relative_uncertainty, np.inf, part))
         if drive.back_uncertainty:
-            back = along(axis, smooth[axis](np.where(driving, 0.0, -samples)))
-            influences.append((f"losses of {axis} when driven back", drive.back_uncertainty, np.inf, back))
+            losses += drive.back_uncertainty * along(axis, smooth[axis](np.where(driving, 0.0, -samples)))
         columns = motion_columns(record, balance.model)[1]
         for size, freedom, change in _independent(balance):
             moved = -force_from_effort(drive, columns @ change, driving)
             influences.append((f"friction and inertia of {axis}", size, freedom, along(axis, smooth[axis](moved))))
+    if any(drive.back_uncertainty for drive in drives):
+        influences.append((LOSSES, 1.0, np.inf, losses))
     return ContactForce(force, float(np.sqrt(scatter)), tuple(influences), load)
 
 

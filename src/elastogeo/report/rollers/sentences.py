@@ -95,9 +95,9 @@ def force_agrees(facts: Facts, passed: bool | None) -> str:
     judged = "gain 1 and offset 0 lie within" if not outside else f"{' and '.join(outside)} outside"
     return (
         f"Force from the currents against the dynamometer: gain {facts['gain']:.4g} ({gain[0]:.4g} to {gain[1]:.4g}), "
-        f"offset {facts['offset_N']:.3g} N ({offset[0]:.3g} to {offset[1]:.3g} N), {judged} the uncertainty over "
-        f"{facts['units']} {'runs' if facts['by_run'] else 'blocks'}. They differ by {facts['rms_N']:.3g} N RMS, "
-        f"{facts['maximum_N']:.3g} N at most."
+        f"offset {facts['offset_N']:.3g} N ({offset[0]:.3g} to {offset[1]:.3g} N), {judged} the uncertainty of both "
+        f"together, with that of the drives, over {facts['units']} {'runs' if facts['by_run'] else 'blocks'}. They differ "
+        f"by {facts['rms_N']:.3g} N RMS, {facts['maximum_N']:.3g} N at most."
     )
 
 
