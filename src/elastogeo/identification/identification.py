@@ -181,7 +181,7 @@ def _assessed(result: Identification, systems: Systems, seen: Shown, moments: Mo
     campaign = result.campaign
     circles = [name for name, test in campaign.tests.items() if test.setup.pose_quantity == "angle"]
     if elastic and not campaign.several and not systems.references and len(systems.levels) >= LEVELS_FOR_MODELS:
-        models = compare_models(campaign.machine, systems, result.confounding.retained, bool(circles), known)
+        models = compare_models(campaign.machine, systems, result.confounding.retained, bool(circles), moments.effects)
         result = replace(result, models=models)
     result = replace(result, tests_agreement=tests_agreement(systems, result.solution, moments))
     result, drawn = _held_against_draws(result, moments)

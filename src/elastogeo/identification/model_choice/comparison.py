@@ -21,7 +21,8 @@ from elastogeo.identification.model_choice.candidates import (
 from elastogeo.identification.model_choice.evidence import SEEN, Evidence, evidence, weights_by_order
 from elastogeo.identification.model_choice.following import OffLevel, off_level
 from elastogeo.identification.model_choice.shapes import Shapes, shapes_of
-from elastogeo.identification.systems import RunSystem, Systems
+from elastogeo.identification.run_system import RunSystem
+from elastogeo.identification.systems import Systems
 from elastogeo.machine import Array, Machine
 
 CONTACT = "every contact alike"
@@ -209,9 +210,9 @@ def _influenced(systems: Systems, which: int, retained: Sequence[str], values: A
     for k, effect in enumerate(effects):
         moved[:, k] -= effect.stretch[which] * by_force
         if effect.shift is not None:
-            moved[:, k] += effect.shift[which]
+            moved[:, k] += effect.shift(run)
         if effect.columns is not None:
-            moved[:, k] -= effect.columns[which][:, [labels.index(label) for label in retained]] @ values
+            moved[:, k] -= effect.columns(run)[:, [labels.index(label) for label in retained]] @ values
     return moved * [effect.influence.standard_uncertainty for effect in effects]
 
 
