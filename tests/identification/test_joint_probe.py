@@ -92,6 +92,16 @@ def test_a_probe_across_x_at_its_origin_makes_the_compliance_of_x_exact() -> Non
     assert not any("at most" in note for note in view_of(with_a_probe()).notes)  # such tests are no longer all at the tool
 
 
+def test_what_was_not_asked_for_counts_as_rigid_and_is_in_what_was() -> None:
+    said = [note for note in view_of(explain(at_the_tool(), parameters=["C_XXX", "C_YYY"])).notes if "not asked for" in note]
+    assert said == [
+        "C_XXY, C_XXZ and C_XXA were not asked for, and so taken as rigid. No test between tool and workpiece tells them "
+        "from C_XXX: what they give is in C_XXX. So with 1 more."
+    ]
+    across = explain({"tool": at_the_tool(), "x": across_x(AXES[0])}, parameters=["C_XXX", "C_YYY"])
+    assert not [note for note in view_of(across).notes if "not asked for" in note]
+
+
 def test_three_directions_see_106() -> None:
     assert found({"tool": at_the_tool(), **{axis: across_x(row) for axis, row in zip("xyz", AXES, strict=True)}}).rank == 106
 

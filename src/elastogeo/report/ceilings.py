@@ -17,9 +17,10 @@ def reach_words(reach: Reach) -> str:
     """How many combinations the tests determine, of how many that such tests, and any tests, can."""
     kind = f"{_FAMILY[reach.family]} tell at most {reach.of_family}" if reach.family in _FAMILY else ""
     best = f"any test between tool and workpiece at most {reach.of_any}"
-    determined = "combination is" if reach.rank == 1 else "combinations are"
+    some = "1 compliance" if reach.columns == 1 else f"{reach.columns} compliances"
+    told = "1 combination is" if reach.rank == 1 else f"{reach.rank} combinations are"
     return (
-        f"Of {reach.columns} compliances, {reach.rank} {determined} determined. On this machine "
+        f"Of {some}, {told} determined. On this machine "
         f"{f'{kind} (with the tools of these tests), {best}' if kind else best}."
     )
 

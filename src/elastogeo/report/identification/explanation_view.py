@@ -7,7 +7,7 @@ from elastogeo.planning import Reach, reach_of
 from elastogeo.report.ceilings import reach_words
 from elastogeo.report.head import campaign_head
 from elastogeo.report.identification.explanation_document import explanation_json
-from elastogeo.report.identification.inseparable import inseparable_words
+from elastogeo.report.identification.inseparable import inseparable_words, unasked_words
 from elastogeo.report.identification.reciprocity import reciprocity_words
 from elastogeo.report.identification.tests import step_table
 from elastogeo.report.identification.words import confounding_words
@@ -23,7 +23,9 @@ def explanation_view(explained: Explanation) -> View:
     asked = len(found.labels)
     rows = tuple((name, pretty(combination(found.stands_for(name)))) for name in found.retained)
     table = Table(("parameter", "stands for"), rows, words=(0, 1), title="What is determined")
-    words = tuple(map(pretty, (*confounding_words(found), *inseparable_words(campaign.machine, found))))
+    machine = campaign.machine
+    unasked = unasked_words(machine, found) if explained.family else ()
+    words = tuple(map(pretty, (*confounding_words(found), *inseparable_words(machine, found), *unasked)))
     groups = tuple(f"Always together: {', '.join(group)}" for group in found.groups if len(group) > 1)
     bought = () if explained.reciprocity is None else (pretty(reciprocity_words(explained.reciprocity)),)
     steps = (step_table(explained),) if explained.steps else ()

@@ -32,3 +32,24 @@ def inseparable_words(machine: Machine, found: Confounding) -> tuple[str, ...]:
         f"No test between tool and workpiece distinguishes {listed(first)}{more}: what moves between them changes "
         f"{neither_words(reasons[0])}, so that each gives way alike at every pose.{told}",
     )
+
+
+def unasked_words(machine: Machine, found: Confounding) -> tuple[str, ...]:
+    """Compliances that were not asked for and that what was asked holds, whatever the test, in a sentence; or nothing."""
+    bound = ceiling(machine)
+    showing = [label for group in found.groups for label in group if label in bound.labels]
+    held = []
+    for alike in bound.alike(bound.labels):
+        asked = [name for name in alike if name in found.labels]
+        others = [name for name in alike if name not in found.labels]
+        if others and any(name in showing for name in asked):
+            held.append((asked, others))
+    if not held:
+        return ()
+    (asked, others), *more = held
+    were, them, they = ("was", "it", "it gives") if len(others) == 1 else ("were", "them", "they give")
+    so = f" So with {len(more)} more." if more else ""
+    return (
+        f"{listed(others)} {were} not asked for, and so taken as rigid. No test between tool and workpiece tells {them} "
+        f"from {asked[0]}: what {they} is in {listed(asked)}.{so}",
+    )
