@@ -167,14 +167,10 @@ def _by_load(knowledge: Knowledge, path: ToolPath, cut: Cut, piece: PieceDeviati
     """What the force does, shape (k, 4) [mm], of the machine and the tool: less what weights do without it."""
     elastic = part_members(knowledge)[COMPLIANCE]
 
-    def by(loads: Cut) -> Array:
-        asked = Piece(path, loads, piece.part).functionals(knowledge)
-        return predicted_along(knowledge, asked * elastic).value
-
-    found = by(cut)
+    asked = Piece(path, cut, piece.part).functionals(knowledge)
     if cut.workpiece is not None or any(joint.mass for joint in path.machine.joints):
-        found = found - by(replace(cut, force=None))
-    return np.asarray(_shaped(found) + piece.tool)
+        asked -= Piece(path, replace(cut, force=None), piece.part).functionals(knowledge)
+    return np.asarray(_shaped(predicted_along(knowledge, asked * elastic).value) + piece.tool)
 
 
 def _shaped(values: Any) -> Any:

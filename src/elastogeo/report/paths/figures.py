@@ -45,7 +45,8 @@ def plan_figure(found: PathPrediction) -> Figure:
         off[~np.isfinite(value)] = np.nan
         ax.plot(*off.T, color=INK, linewidth=0.8, zorder=1, label=f"where the tool goes, deviation × {factor:g}")
     known = np.isfinite(value)
-    _stroke(ax, points, ~known & drawn, None, norm)
+    unknown = found.asked[chosen, k] & ~known
+    _stroke(ax, points, unknown & drawn, None, norm)
     _stroke(ax, points, known & drawn, value, norm)
     worst = worst_point(found)
     if worst is not None:
@@ -56,7 +57,7 @@ def plan_figure(found: PathPrediction) -> Figure:
     if known.any():
         bar = figure.colorbar(ScalarMappable(norm, _SIGNED), ax=ax, shrink=0.8, pad=0.02)
         bar.set_label(_label(found, k))
-    if not known.all():
+    if unknown.any():
         ax.plot([], [], ":", color=GREY, linewidth=2.2, label="not supported by these tests")
     figure.legend(loc="outside lower center", ncols=2)
     return figure
@@ -143,7 +144,7 @@ def _band(ax: Axes, found: PathPrediction, k: int) -> None:
     prior = found.prior_share[chosen, k] > 0
     if prior.any():
         ax.plot(way[prior], values[prior], ".", color=GREY, ms=2, label="rests on the stated prior")
-    blank = ~np.isfinite(values)
+    blank = found.asked[chosen, k] & ~np.isfinite(values)
     if blank.any():
         ax.plot(way[blank], np.zeros(int(blank.sum())), "x", color=GREY, ms=3, label="not supported")
     ax.legend(loc="upper right", fontsize=SMALL - 0.5, ncols=3)

@@ -42,6 +42,18 @@ def worst_point(found: PathPrediction) -> int | None:
     return int(np.nanargmax(size)) if np.isfinite(size).any() else None
 
 
+def worst_by_force(found: PathPrediction) -> tuple[int, int] | None:
+    """Where the compliance of the machine gives most, as its place among `split_at`, and the component; None if unknown.
+
+    Known it may be where the whole deviation is not: what the tests do not determine is then geometry.
+    """
+    part = found.parts.get("compliance")
+    if part is None or not np.nan_to_num(part.value).any():
+        return None
+    k = 3 if np.isfinite(part.value[:, 3]).any() else int(np.nan_to_num(np.abs(part.value[:, :3])).max(axis=0).argmax())
+    return int(np.nanargmax(np.abs(part.value[:, k]))), k
+
+
 def said_um(value: float, expanded: float) -> str:
     """A deviation [mm] as micrometres with U; the value alone where there is no interval."""
     if not np.isfinite(value):
@@ -67,10 +79,12 @@ def extremes(found: PathPrediction) -> Iterator[Extreme]:
 
 def split_rows(found: PathPrediction) -> tuple[tuple[str, ...], ...]:
     """What each part adds at the worst point, by component."""
-    at = worst_point(found)
-    if at is None:
+    at, by_force = worst_point(found), worst_by_force(found)
+    if at is None and by_force is None:
         return ()
-    rows, k_at = [], int(np.searchsorted(found.split_at, at))
+    rows: list[tuple[str, ...]] = []
+    k_at = int(np.searchsorted(found.split_at, at)) if at is not None else by_force[0] if by_force else 0
+    at = int(found.split_at[k_at])
     for name, part in found.parts.items():
         asked = np.nan_to_num(part.value).any() or np.nan_to_num(part.expanded).any()
         cells = (
@@ -96,7 +110,7 @@ def block_rows(found: PathPrediction, most: int = 12) -> tuple[tuple[str, str, s
     size = np.nan_to_num(np.abs(found.value[:, k]), nan=-1.0)
     order = np.lexsort((-size, found.path.block))
     firsts = order[np.unique(found.path.block[order], return_index=True)[1]]
-    chosen = firsts[np.argsort(-size[firsts], kind="stable")][:most]
+    chosen = [k for k in firsts[np.argsort(-size[firsts], kind="stable")][:most] if size[k] >= 0]
     wide, force = found.expanded, np.linalg.norm(found.wrench[:, :3], axis=1)
     return tuple(
         (

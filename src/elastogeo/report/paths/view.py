@@ -18,6 +18,7 @@ from elastogeo.report.paths.rows import (
     main_component,
     said_um,
     split_rows,
+    worst_by_force,
     worst_point,
 )
 from elastogeo.report.view import KeyValue, Picture, Section, Table, View, attention_sentence, said, views
@@ -105,12 +106,23 @@ def _head(found: PathPrediction) -> tuple[tuple[str, str], ...]:
 def _answer(found: PathPrediction) -> str:
     at = worst_point(found)
     if at is None:
-        return "These tests do not support a prediction along this path."
+        return f"These tests do not support where the tool goes along this path{_by_force(found)}."
     k = main_component(found)
     where = "normal to the path" if DEVIATION_COMPONENTS[k] == "normal" else f"in {DEVIATION_COMPONENTS[k]}"
     told = pretty(said_um(float(found.value[at, k]), float(found.expanded[at, k])))
     part = "" if found.supported[:, :3][found.asked[:, :3]].all() else ", where the tests support it"
     return f"The tool will be off by up to {told} µm {where}, {found.path.travelled[at]:.1f} mm along the path{part}."
+
+
+def _by_force(found: PathPrediction) -> str:
+    """What the force does, where that is all that is known."""
+    worst = worst_by_force(found)
+    if worst is None:
+        return ""
+    k_at, k = worst
+    part, where = found.parts["compliance"], "normal to it" if DEVIATION_COMPONENTS[k] == "normal" else f"in {'xyz'[k]}"
+    told = pretty(said_um(float(part.value[k_at, k]), float(part.expanded[k_at, k])))
+    return f"; what loads do to the machine they do: up to {told} µm {where}"
 
 
 def _values(found: PathPrediction) -> Iterator[KeyValue]:
