@@ -7,10 +7,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from elastogeo.errors import InputError, MachineError
-from elastogeo.machine import Array, Joint, Machine, Place, jacobian, parse_topology
+from elastogeo.machine import Array, Frame, Joint, Machine, Place, jacobian, parse_topology, rotation_matrix
 from elastogeo.planning import ceiling
+from elastogeo.planning.invariants import generator, invariants
 
 Points = dict[str, tuple[float, float, float]]
 
@@ -52,7 +55,7 @@ def rank_and_gap(rows: Array, reciprocal: bool = False) -> tuple[int, float]:
         upper = np.triu_indices(6)
         both = (tensors + tensors.swapaxes(2, 3))[:, :, *upper]
         rows = both.reshape(len(rows), -1)
-    values = np.linalg.svd(rows, compute_uv=False)
+    values = np.linalg.svd(np.linalg.qr(rows, mode="r"), compute_uv=False)
     rank = int((values > 1e-9 * values[0]).sum())
     left = values[rank] if rank < len(values) else 0.0
     return rank, float(values[rank - 1] / max(left, 1e-16 * values[0]))
@@ -157,3 +160,66 @@ def test_only_what_no_test_changes_is_ever_known_alone() -> None:
     assert found.unseen("C_AAX")
     assert found.unseen("C_CCX")
     assert not found.unseen("C_BBX")
+
+
+X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+BESIDE, ABOVE = (40.0, 70.0, -20.0), (40.0, 70.0, 90.0)
+ORIGIN = (0.0, 0.0, 0.0)
+
+
+def motion(axis: str, at: tuple[float, float, float] = ORIGIN, tilt: tuple[float, float, float] = ORIGIN) -> Array:
+    """Generator of an axis (X Y Z slide, A B C turn) whose frame sits at a point and is inclined."""
+    frame = Frame(rotation_matrix(np.array([tilt])), np.array([at]))
+    return generator(frame, "XYZABC".index(axis) % 3, axis in "ABC")
+
+
+@pytest.mark.parametrize(
+    ("what", "motions", "dimensions"),
+    [
+        ("nothing", [], (36, 21)),
+        ("linear", [motion("X")], (20, 11)),
+        ("linear, inclined", [motion("X", BESIDE, (0.3, 0.2, 0.5))], (20, 11)),
+        ("rotary", [motion("B", BESIDE)], (12, 7)),
+        ("rotary with perpendicular linear", [motion("A", BESIDE), motion("Y")], (5, 3)),
+        ("rotary with parallel linear", [motion("A", BESIDE), motion("X")], (8, 5)),
+        ("two perpendicular linears", [motion("X"), motion("Z")], (13, 7)),
+        ("parallel linears", [motion("X"), motion("X", BESIDE)], (20, 11)),
+        ("rotaries in line", [motion("C", BESIDE), motion("C", ABOVE)], (12, 7)),
+        ("rotaries parallel, apart", [motion("C"), motion("C", BESIDE)], (5, 3)),
+        ("rotaries that intersect", [motion("C", BESIDE), motion("A", BESIDE)], (4, 3)),
+        ("rotaries that are skew", [motion("C"), motion("A", BESIDE)], (2, 2)),
+    ],
+)
+def test_the_dimensions_of_the_reference(what: str, motions: list[Array], dimensions: tuple[int, int]) -> None:
+    found = [invariants(motions, reciprocal) for reciprocal in (False, True)]
+    assert tuple(map(len, found)) == dimensions, what
+    for tensors in found:
+        for G in motions:
+            assert np.abs(G @ tensors + tensors @ G.T).max() < 1e-6 * np.abs(tensors).max() * np.abs(G).max()
+    assert np.array_equal(found[1], found[1].transpose(0, 2, 1))
+
+
+@given(
+    axes=st.permutations(list("XYZABC")),
+    count=st.integers(2, 4),
+    cut=st.integers(0, 4),
+    rigid=st.sets(st.sampled_from("XYZABC"), max_size=2),
+    held=st.sets(st.sampled_from("XYZABC"), max_size=2),
+    seed=st.integers(0, 10**6),
+)
+@settings(max_examples=20)
+def test_the_closed_form_holds_for_any_loop(
+    axes: list[str], count: int, cut: int, rigid: set[str], held: set[str], seed: int
+) -> None:
+    """Any order of axes, each in line or apart, upright or inclined, rigid or held, against six loads and six readings."""
+    random, axes = np.random.default_rng(seed), axes[:count]
+    if set(axes) <= rigid:
+        rigid = set()
+    apart = {axis: tuple(random.uniform(-1, 1, 3)) for axis in axes if random.random() < 0.5}
+    inclined = {axis: tuple(random.uniform(-1, 1, 3)) for axis in axes if random.random() < 0.3}
+    topology = f"w{''.join(axes[:cut])}F{''.join(axes[cut:])}t"
+    machine = machine_of(topology, apart, inclined, rigid="".join(rigid))
+    at = {axis: 0.3 for axis in held if axis in axes}
+    rows = six_component_rows(machine, poses=10, held=at)
+    assert ceiling(machine, held=at).rank == rank_and_gap(rows)[0]
+    assert ceiling(machine, True, at).rank == rank_and_gap(rows, reciprocal=True)[0]
