@@ -32,7 +32,7 @@ GROUPS = {
         "identify_drives", "calibrate",
     ),
     "Before and after a test": (
-        "plan", "map_compliance", "write_program", "read_program", "compensate", "compensate_path",
+        "plan", "write_tests", "map_compliance", "write_program", "read_program", "compensate", "compensate_path",
         "predict", "read_path", "read_cut", "read_design",
     ),
     "What comes back": ("Result", "Estimate", "MachineTest", "Campaign", "Machine"),

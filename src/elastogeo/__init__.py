@@ -40,6 +40,7 @@ if TYPE_CHECKING:
         read_test,
         simulate,
         write_program,
+        write_tests,
     )
     from elastogeo.identification import (
         calibrate,
@@ -101,6 +102,7 @@ _HOME = {
     "simulate": "formats",
     "what_if": "identification",
     "write_program": "formats",
+    "write_tests": "formats",
 }
 """The room of each name of the face."""
 
@@ -145,6 +147,7 @@ __all__ = [
     "simulate",
     "what_if",
     "write_program",
+    "write_tests",
 ]
 
 

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from elastogeo.formats.documents.feed_drives import read_drives
     from elastogeo.formats.documents.machine_tests import example_test, full_turn, read_test, run_files_of
     from elastogeo.formats.documents.machines import find_machine, machines, read_machine, shipped_machines
+    from elastogeo.formats.documents.planned_tests import write_tests
     from elastogeo.formats.documents.simulated_tests import simulate
     from elastogeo.formats.documents.simulations import Simulation, poses_of, read_simulation, write_runs
     from elastogeo.formats.documents.templates import kinds_of_tests, new_test
@@ -146,6 +147,7 @@ __all__ = [
     "write_calibration",
     "write_program",
     "write_runs",
+    "write_tests",
     "write_whole",
 ]
 
@@ -164,6 +166,7 @@ __getattr__ = first_use(
         "documents.feed_drives": "read_drives",
         "documents.machine_tests": "example_test full_turn read_test run_files_of",
         "documents.machines": "find_machine machines read_machine shipped_machines",
+        "documents.planned_tests": "write_tests",
         "documents.simulated_tests": "simulate",
         "documents.simulations": "Simulation poses_of read_simulation write_runs",
         "documents.templates": "kinds_of_tests new_test",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -31,6 +31,11 @@ def plan(
     force: Annotated[list[float] | None, typer.Option(help="Force level of every test [N]; two at least.")] = None,
     candidates: Annotated[int, typer.Option(help="Tests to draw and choose from.", min=1)] = 400,
     reciprocal: Reciprocal = False,
+    write: Annotated[
+        Path | None,
+        typer.Option(help="Folder to make: a campaign of the planned tests, for their runs, with a program each."),
+    ] = None,
+    flavour: Annotated[str, typer.Option(help="Of the programs: iso, linuxcnc, sinumerik, heidenhain.")] = "iso",
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
@@ -41,6 +46,7 @@ def plan(
       elastogeo plan --machine hermle_c50 --tests 8
       elastogeo plan --machine hermle_c50 -p C_XXX --tests 4
       elastogeo plan my-campaign --minutes 120
+      elastogeo plan --machine hermle_c50 --tests 8 --write my-campaign --flavour sinumerik
     """
     from elastogeo.cli import screen
 
@@ -64,4 +70,33 @@ def plan(
             reciprocal=reciprocal,
             progress=step,
         )
+        if write is not None:
+            step("writing tests and programs")
+            without = _write(found, write, machine, flavour)
     screen.show(found, report, as_json)
+    if write is not None and not as_json:
+        screen.say(f"Written: {write}, a campaign to measure, with programs.")
+        for name, why in without.items():
+            screen.say(f"{name} has no program: {why}")
+
+
+def _write(found: Any, folder: Path, machine: str, flavour: str) -> dict[str, str]:
+    """The planned tests as folders, and the programs that make their paths; why a test has none, by name.
+
+    Raises
+    ------
+    InputError
+        If it is not said which machine file the tests are to name.
+    """
+    if not machine:
+        raise eg.InputError("the planned tests name their machine by its file; say --machine beside --write")
+    eg.write_tests(found.campaign, folder, machine)
+    programs = folder / "programs"
+    programs.mkdir()
+    without = {}
+    for name, test in found.campaign.tests.items():
+        try:
+            eg.write_program({name: test}, programs, flavour)
+        except eg.ElastogeoError as error:
+            without[name] = str(error)
+    return without

@@ -132,7 +132,7 @@ def new_test(
     template = instrument_named(instrument).template_for(found) or template
     text = _TEST.format(
         title=template.title,
-        machine=_relative(named, folder),
+        machine=machine_named_from(named, folder),
         instrument=instrument,
         resolution=template.resolution_um,
         setup=template.setup.replace("@CENTRE@", _centre(found)),
@@ -182,7 +182,7 @@ def _centre(machine: Machine) -> str:
     return ", ".join(f"{joint.name}_{'deg' if joint.is_rotary else 'mm'} = 0" for joint in axes)
 
 
-def _relative(machine: str, folder: Path) -> str:
+def machine_named_from(machine: str, folder: Path) -> str:
     """A machine as the test names it: a shipped one by name, a file by its path from the folder of the test."""
     if machine in shipped_machines():
         return machine

@@ -88,7 +88,7 @@ def _built(kind: Any, table: Any, path: str, problems: list[str]) -> Any:
         if field.name in values and not _is_wrong(values[field.name]):
             problems.extend(_type_problems(hints[field.name], values[field.name], f"{path}{field.name}"))
         elif field.name not in values and field.default is MISSING and field.default_factory is MISSING:
-            unit = _unit_of(get_type_hints(kind, include_extras=True)[field.name])
+            unit = unit_of(get_type_hints(kind, include_extras=True)[field.name])
             problems.append(f"{path}{_spelled(field.name, unit)} is missing")
     if len(problems) > before:
         return _WRONG
@@ -126,7 +126,7 @@ def _internal(kind: Any, table: Any, path: str, problems: list[str]) -> dict[str
         problems.append(f"{path.rstrip('.') or 'the document'} must be a table, got {table!r:.60}")
         return {}
     hints, marked = get_type_hints(kind), get_type_hints(kind, include_extras=True)
-    units = {field.name: _unit_of(marked[field.name]) for field in fields(kind)}
+    units = {field.name: unit_of(marked[field.name]) for field in fields(kind)}
     values: dict[str, Any] = {}
     for key, value in table.items():
         name, unit = _field_of(key, units)
@@ -233,7 +233,8 @@ def _dimensions(unit: str) -> tuple[str, ...]:
     return tuple(UNITS[part].dimension for part in parts) if all(part in UNITS for part in parts) else ()
 
 
-def _unit_of(hint: Any) -> str:
+def unit_of(hint: Any) -> str:
+    """The unit that a field has inside, by its annotation; empty for none."""
     hint = _given(hint)
     return str(hint.__metadata__[0]) if get_origin(hint) is Annotated else ""
 

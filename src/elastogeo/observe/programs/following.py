@@ -113,15 +113,17 @@ def _moves(test: Followed, axes: Sequence[str], poses: Array, procedure: Procedu
     """From each pose to the next, by lines that leave the path by no more than the procedure allows."""
     turned = np.abs(np.diff(poses, axis=0)).max(axis=1, initial=0.0)
     moves = np.flatnonzero(turned > _STAYS)
+    if not len(moves):
+        yield from (Dwell(procedure.dwell) for _ in turned if halts)
+        return
     counts: Counts = np.zeros(len(turned), dtype=np.intp)
-    if len(moves):
-        coarse = _between(poses, np.asarray(np.where(turned > _STAYS, _SAMPLES, 0), dtype=np.intp))
-        linear = _positions(test, axes, coarse)[:, _linear(test.machine)].reshape(len(moves), _SAMPLES, -1)
-        start = _positions(test, axes, poses[moves])[:, _linear(test.machine)]
-        bends = np.diff(np.concatenate([start[:, np.newaxis], linear], axis=1), n=2, axis=1)
-        bend = np.linalg.norm(bends, axis=2).max(axis=1) * _SAMPLES**2
-        need = np.maximum(np.sqrt(bend / (8 * procedure.between)), turned[moves] / _TURN)
-        counts[moves] = np.maximum(np.ceil(need), 1)
+    coarse = _between(poses, np.asarray(np.where(turned > _STAYS, _SAMPLES, 0), dtype=np.intp))
+    linear = _positions(test, axes, coarse)[:, _linear(test.machine)].reshape(len(moves), _SAMPLES, -1)
+    start = _positions(test, axes, poses[moves])[:, _linear(test.machine)]
+    bends = np.diff(np.concatenate([start[:, np.newaxis], linear], axis=1), n=2, axis=1)
+    bend = np.linalg.norm(bends, axis=2).max(axis=1) * _SAMPLES**2
+    need = np.maximum(np.sqrt(bend / (8 * procedure.between)), turned[moves] / _TURN)
+    counts[moves] = np.maximum(np.ceil(need), 1)
     fine = _between(poses, counts)
     commands = _commands(test, axes, fine)
     places = np.vstack([_positions(test, axes, poses[:1]), _positions(test, axes, fine)])

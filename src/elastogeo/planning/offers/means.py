@@ -9,7 +9,7 @@ from math import inf
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Feed, Forces, Lengths, Machine, Point
+from elastogeo.machine import Array, Feed, Forces, Lengths, Machine, Point
 from elastogeo.observe import Setup
 from elastogeo.planning.offers.clearance import Clearance
 
@@ -99,6 +99,15 @@ class Means:
         joint = self.machine.joints[self.machine.index(axis)]
         low, high = joint.travel
         return (max(low, -np.pi), min(high, np.pi)) if joint.is_rotary else (low, high)
+
+    def within(self, commands: Array, margin: float) -> bool:
+        """Whether the linear axes stay a margin [mm] within their travel, at commands of shape (m, n)."""
+        for axis in self.linear:
+            low, high = self.travel(axis)
+            path = commands[:, self.machine.index(axis)]
+            if path.min() < low + margin or path.max() > high - margin:
+                return False
+        return True
 
     def somewhere(self, random: np.random.Generator, margin: float = 0.0, share: float = 1.0) -> dict[str, float]:
         """Random commands of the linear axes [mm], within a share of their travel less a margin; rotary axes at zero."""
