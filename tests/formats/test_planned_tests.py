@@ -64,7 +64,7 @@ def test_a_machine_file_of_ones_own_is_named_from_each_folder(tmp_path: Path) ->
 
 def test_a_written_plan_is_measured_and_identified(tmp_path: Path) -> None:
     """From the plan to folders, runs as a bar writes them, one campaign: no geometry is taken for compliance."""
-    plan = eg.plan(Means(HERMLE, readings=36), tests=3, count=20)
+    plan = eg.plan(Means(HERMLE, readings=36, rotary=False), tests=3, count=20)
     eg.write_tests(plan.campaign, tmp_path / "plan", "hermle_c50")
     values = {"C_XXX": 2e-5, "C_ZZZ": 1.5e-5, "C_YYY": 1e-5}
     for name, test in plan.campaign.tests.items():
