@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 from elastogeo.errors import InputError, UnsupportedError
+from elastogeo.formats import read_machine
 from elastogeo.identification import identify
-from elastogeo.machine import jacobian
-from elastogeo.prediction import Knowledge, ToolCompliance, compliance_along, knowledge_of, tool_compliance
-from elastogeo.prediction.tool_compliances import unit_direction
+from elastogeo.machine import Machine, jacobian
+from elastogeo.prediction import Grid, Knowledge, ToolCompliance, compliance_along, entry_rows, knowledge_of, tool_compliance
+from elastogeo.prediction.maps.field import quadratic
+from elastogeo.prediction.tool_compliances import TRANSLATION, unit_direction
+from elastogeo.sources import Source, select_sources
 from tests.prediction.circles import MIDDLE, circles, machine, springs
 
 AT = np.array([10.0, -25.0, 40.0])
@@ -24,6 +29,12 @@ def truth_at(commands: np.ndarray) -> np.ndarray:
         C[k + "XYZABC".index(name[2]), k + "XYZABC".index(name[3])] = value
     J = jacobian(one, np.atleast_2d(commands))[0]
     return np.asarray(J @ C @ J.T)
+
+
+def asking(one: Machine, sources: tuple[Source, ...]) -> Knowledge:
+    """What is asked for, before anything is known of it."""
+    unknown: Any = None
+    return Knowledge(one, sources, unknown, unknown, unknown, True, np.ones(len(sources)), np.zeros(len(one.axes)), (), "")
 
 
 @pytest.fixture(scope="module")
@@ -107,3 +118,41 @@ def test_without_a_compliance_there_is_none_at_the_tool() -> None:
     known = knowledge_of(identify(circles(MIDDLE[:1]), parameters=["E_XX1"]))
     with pytest.raises(UnsupportedError, match="no compliance was asked for"):
         tool_compliance(known, AT)
+
+
+@pytest.mark.parametrize("name", ["hermle_c50", "huron_kx8"])
+def test_elements_ask_for_what_the_jacobian_carries(name: str) -> None:
+    """Any values of the parameters: `entry_rows @ values` is the symmetric part of J C J^T, at any pose, with any tool."""
+    one, random = read_machine(name), np.random.default_rng(8)
+    sources = select_sources(one, ["C_???"])
+    values = random.normal(size=len(sources))
+    known = asking(one, sources)
+    commands = random.uniform(-0.5, 0.5, (4, len(one.axes))) * [1.0 if joint.is_rotary else 400.0 for joint in one.joints]
+    tool = np.array([20.0, -10.0, -230.0])
+    C = np.zeros((6 * len(one.axes),) * 2)
+    for source, value in zip(sources, values, strict=True):
+        at = 6 * one.axes.index(source.site[1])
+        C[at + source.component, at + (source.load or 0)] = value
+    J = jacobian(one, commands, tool)
+    expected = J @ C @ J.transpose(0, 2, 1)
+    found = entry_rows(known, commands, tool) @ values
+    pairs = [(i, j) for i in range(6) for j in range(i, 6)]
+    for k, (i, j) in enumerate(pairs):
+        assert found[:, k] == pytest.approx((expected[:, i, j] + expected[:, j, i]) / 2, rel=1e-9)
+
+
+def test_over_linear_axes_with_others_turned_it_is_a_quadratic() -> None:
+    """Five axes, the rotary ones turned: ten functionals make every place of a grid, to rounding."""
+    one, random = read_machine("hermle_c50"), np.random.default_rng(9)
+    sources = select_sources(one, ["C_???"])
+    known = asking(one, sources)
+    stands = np.array([{"A": 0.4, "C": -0.7}.get(axis, 0.0) for axis in one.axes])
+    along = tuple(np.linspace(low, high, n) for low, high, n in ((-300.0, 250.0, 5), (-200.0, 200.0, 4), (-50.0, 350.0, 3)))
+    places = Grid(("X", "Y", "Z"), along, stands, tuple(map(one.index, "XYZ")))
+    found = quadratic(known, places, np.array(one.tool))
+    chosen = random.integers(0, places.size, 6)
+    commands = places.commands(chosen)
+    rows = np.einsum("mb,bep->mep", found.terms(commands[:, list(places.columns)]), found.rows)
+    exact = entry_rows(known, commands, None, TRANSLATION)
+    assert found.rows.shape[0] == 10
+    assert np.abs(rows - exact).max() < 1e-9 * np.abs(exact).max()

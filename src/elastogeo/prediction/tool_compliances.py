@@ -112,25 +112,28 @@ def entry_rows(
     UnsupportedError
         If no compliance was asked for, or one changes with force, feed or travel.
     """
+    mirrored = [(j, i) for i, j in pairs]
+    both = single_rows(knowledge, commands, [*pairs, *mirrored], tool)
+    return np.asarray((both[:, : len(pairs)] + both[:, len(pairs) :]) / 2)
+
+
+def single_rows(knowledge: Knowledge, commands: Array, pairs: Sequence[tuple[int, int]], tool: Array | None = None) -> Array:
+    """What each C_ij by itself, displacement i for load j, asks of the parameters, shape (m, len(pairs), p).
+
+    Raises
+    ------
+    UnsupportedError
+        If no compliance was asked for, or one changes with force, feed or travel.
+    """
     check_constant(knowledge)
     commands = np.atleast_2d(commands)
-    found = np.empty((len(commands), len(pairs), len(knowledge.sources)))
-    for k, (i, j) in enumerate(pairs):
-        found[:, k] = single_rows(knowledge, commands, i, j, tool)
-        if i != j:
-            found[:, k] += single_rows(knowledge, commands, j, i, tool)
-            found[:, k] /= 2
-    return found
-
-
-def single_rows(knowledge: Knowledge, commands: Array, i: int, j: int, tool: Array | None = None) -> Array:
-    """What C_ij by itself, displacement i for load j, asks of the parameters, shape (m, p)."""
-    loaded = virtual_observations(knowledge.machine, commands, UNIT[i], UNIT[j], tool)
-    rows = knowledge.rows(loaded)
+    each = np.repeat(commands, len(pairs), axis=0)
+    shown, loaded = (np.tile(UNIT[list(components)], (len(commands), 1)) for components in zip(*pairs, strict=True))
+    rows = knowledge.rows(virtual_observations(knowledge.machine, each, shown, loaded, tool))
     if any(joint.mass for joint in knowledge.machine.joints):
-        rows -= knowledge.rows(virtual_observations(knowledge.machine, commands, UNIT[i], 0 * UNIT[j], tool))
+        rows -= knowledge.rows(virtual_observations(knowledge.machine, each, shown, 0 * loaded, tool))
     rows[:, [k for k, source in enumerate(knowledge.sources) if not source.elastic]] = 0.0
-    return rows
+    return rows.reshape(len(commands), len(pairs), -1)
 
 
 def weights_of(direction: Array, pairs: Sequence[tuple[int, int]]) -> Array:
@@ -178,9 +181,9 @@ def tool_compliance(knowledge: Knowledge, commands: Array, tool: Array | None = 
     UnsupportedError
         If no compliance was asked for, or one changes with force, feed or travel.
     """
-    rows = entry_rows(knowledge, commands, tool)[0]
+    single = single_rows(knowledge, commands, [(i, j) for i in range(6) for j in range(6)], tool)[0]
+    rows = np.array([(single[6 * i + j] + single[6 * j + i]) / 2 for i, j in PAIRS])
     found = knowledge.predict(rows, prior)
-    single = [single_rows(knowledge, commands, i, j, tool)[0] for i in range(6) for j in range(6)]
     rigid = ~np.array([rows[PAIRS.index((i, i))].any() for i in range(6)])
     values = _square(found.value)
     known = values.copy()
@@ -197,7 +200,7 @@ def tool_compliance(knowledge: Knowledge, commands: Array, tool: Array | None = 
         compliance=values,
         expanded=_square(found.expanded),
         supported=_square(found.supported.astype(float)).astype(bool),
-        alone=knowledge.predict(np.array(single)).supported.reshape(6, 6),
+        alone=knowledge.predict(single).supported.reshape(6, 6),
         prior_share=_square(found.prior_share),
         collinear=collinear_stiffness(known, estimate, np.asarray(commands, dtype=float).ravel()),
         stiffness=stiffness,

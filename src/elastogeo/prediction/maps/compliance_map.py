@@ -128,9 +128,8 @@ def map_compliance(
 def _compared(known: Knowledge, places: Grid, tool: Array, found: Field, design: Design) -> AgainstDesign:
     """What was measured against design; by data alone, also where a prior was asked for."""
     value, spread = given_over(known, places, tool, found.direction, design_vector(known, design))
-    told = found.predicted.supported
-    measured, expanded = (np.where(told, one, np.nan) for one in (found.predicted.value, found.predicted.expanded))
-    whole = against_design(known, design, value, measured, expanded, design.relative_uncertainty * spread)
+    unsure = design.relative_uncertainty * spread
+    whole = against_design(known, design, value, found.predicted, unsure, found.independent)
     return replace(whole, compliance=value.reshape(places.shape), agrees=whole.agrees.reshape(places.shape))
 
 

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import stdtr
 
 from elastogeo.equality import ByValue
 from elastogeo.errors import InputError
 from elastogeo.estimate import Estimate, coverage_factor
 from elastogeo.formats import Design
+from elastogeo.identification import SIGNIFICANT
 from elastogeo.machine import Array
-from elastogeo.prediction.knowledge import Knowledge
+from elastogeo.prediction.knowledge import Knowledge, Predicted
 
 AGREES, UNKNOWN, DIFFERS = 1, 0, -1
 
@@ -63,6 +66,9 @@ class AgainstDesign(ByValue):
         At the tool by design, along the direction of the map at each place, of the shape of its grid.
     agrees : array of int
         Of each place: 1 agrees within U, -1 does not, 0 where the tests do not tell.
+    p_value : float
+        Probability of such a difference, or a greater one, at any place, if the machine is as designed (Bonferroni, over the
+        independent functionals of the map); NaN where the tests tell nowhere.
     missing : tuple of str
         Compliances that were asked for and are not in the design: rigid there.
     unused : tuple of str
@@ -73,13 +79,14 @@ class AgainstDesign(ByValue):
     parameters: tuple[DesignParameter, ...]
     compliance: Array
     agrees: NDArray[np.int8]
+    p_value: float
     missing: tuple[str, ...]
     unused: tuple[str, ...]
 
     @property
     def passed(self) -> bool | None:
-        """Whether they agree wherever the tests tell; None where they tell nowhere."""
-        return None if not self.agrees.any() else bool((self.agrees >= 0).all())
+        """Whether they agree, all places together; None where the tests tell nowhere."""
+        return None if not isfinite(self.p_value) else self.p_value >= SIGNIFICANT
 
     @property
     def share(self) -> float:
@@ -105,7 +112,7 @@ def design_vector(knowledge: Knowledge, design: Design) -> Array:
 
 
 def against_design(
-    knowledge: Knowledge, design: Design, compliance: Array, measured: Array, expanded: Array, uncertainty: Array
+    knowledge: Knowledge, design: Design, compliance: Array, measured: Predicted, uncertainty: Array, independent: int
 ) -> AgainstDesign:
     """The comparison.
 
@@ -113,20 +120,24 @@ def against_design(
     ----------
     knowledge : Knowledge
     design : Design
-    compliance : array [mm/N]
+    compliance : array, shape (m,) [mm/N]
         At the tool by design.
-    measured, expanded : array [mm/N]
-        As measured, with U; NaN where the tests do not tell.
-    uncertainty : array [mm/N]
+    measured : Predicted
+        As measured, at m places; what the tests do not support does not count.
+    uncertainty : array, shape (m,) [mm/N]
         Standard uncertainty of the design at the tool.
+    independent : int
+        How many functionals of the parameters all places are made of.
     """
+    difference = np.where(measured.supported, measured.value, np.nan) - compliance
     known = {name for several in _names(knowledge) for name in several}
     missing = tuple(several[0] for several in _names(knowledge) if several and not any(n in design.values for n in several))
     return AgainstDesign(
         name=design.name,
         parameters=tuple(_parameters(knowledge, design)),
         compliance=compliance,
-        agrees=_agreement(measured - compliance, expanded, uncertainty),
+        agrees=_agreement(difference, measured.expanded, uncertainty),
+        p_value=_probability(difference, measured, uncertainty, independent),
         missing=missing,
         unused=tuple(name for name, value in design.values.items() if value and name not in known),
     )
@@ -158,6 +169,16 @@ def _parameters(knowledge: Knowledge, design: Design) -> list[DesignParameter]:
 def _agreement(difference: Array, expanded: Array, uncertainty: Array) -> NDArray[np.int8]:
     within = np.abs(difference) <= np.hypot(expanded, _NORMAL * uncertainty)
     return np.where(np.isfinite(difference + expanded), np.where(within, AGREES, DIFFERS), UNKNOWN).astype(np.int8)
+
+
+def _probability(difference: Array, measured: Predicted, uncertainty: Array, independent: int) -> float:
+    """That of the surest difference, allowing for how many there are."""
+    told = np.isfinite(difference) & np.isfinite(measured.standard_uncertainty)
+    if not told.any():
+        return float("nan")
+    sure = np.abs(difference[told]) / np.hypot(measured.standard_uncertainty, uncertainty)[told]
+    each = 2 * stdtr(measured.degrees_of_freedom[told], -sure)
+    return float(min(1.0, min(independent, int(told.sum())) * each.min()))
 
 
 def _names(knowledge: Knowledge) -> list[tuple[str, ...]]:

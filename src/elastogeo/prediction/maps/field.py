@@ -71,11 +71,13 @@ def quadratic(knowledge: Knowledge, grid: Grid, tool: Array) -> Quadratic:
 class Field:
     """Compliance along a direction over a grid of m places, counted through; see `Predicted`.
 
-    `direction`, shape (m, 3), is what was asked for, or the softest at each place: NaN where that is not determined.
+    `direction`, shape (m, 3), is what was asked for, or the softest at each place: NaN where that is not determined;
+    `independent` says how many functionals of the parameters all places are made of.
     """
 
     predicted: Predicted
     direction: Array
+    independent: int = 0
 
 
 def field_over(knowledge: Knowledge, grid: Grid, tool: Array, direction: Array | None, prior: bool) -> Field:
@@ -99,7 +101,8 @@ def field_over(knowledge: Knowledge, grid: Grid, tool: Array, direction: Array |
         places = np.arange(first, min(first + BLOCK, grid.size))
         terms = found.terms(grid.commands(places)[:, list(grid.columns)])
         parts.append(_along(span, terms, direction, prior) if direction is not None else _softest(span, terms, prior))
-    return Field(Predicted.joined([part.predicted for part in parts]), np.vstack([part.direction for part in parts]))
+    predicted = Predicted.joined([part.predicted for part in parts])
+    return Field(predicted, np.vstack([part.direction for part in parts]), int(np.linalg.matrix_rank(span.over)))
 
 
 def _along(span: Span, terms: Array, direction: Array, prior: bool) -> Field:

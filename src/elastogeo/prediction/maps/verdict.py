@@ -66,11 +66,12 @@ def stiff_enough(acceptance: Acceptance) -> Check:
 
 
 def as_designed(design: AgainstDesign) -> Check:
-    """Whether the compliance at the tool is that of the design within U, wherever the tests tell."""
+    """Whether the compliance at the tool is that of the design, all places that the tests tell together."""
     told = [one.agrees for one in design.parameters if one.agrees is not None]
     facts = {
         "places": int(np.sum(design.agrees != 0)),
         "differ": int(np.sum(design.agrees < 0)),
+        "p_value": design.p_value,
         "parameters": len(told),
         "parameters_differ": told.count(False),
         "missing": len(design.missing),

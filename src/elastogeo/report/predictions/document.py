@@ -17,7 +17,8 @@ stiffest, softest : {commands, compliance, stiffness, principal, at_tool}, or nu
     at_tool : {compliance, expanded, supported, alone, stiffness, stiffness_expanded}, 6 x 6, in mm, N, rad
 difference_nm_per_N : by how much the softest place is softer than the stiffest, with its uncertainty
 limit : null, or {least_stiffness_N_per_um, conforming, failing, undecided, passed}
-design : null, or {name, compliance_nm_per_N, agrees, parameters, missing, unused}
+design : null, or {name, p_value, compliance_nm_per_N, agrees, parameters, missing, unused}
+    p_value : of such a difference at any place if the machine is as designed
     compliance_nm_per_N, agrees : arrays over the grid; agrees within U: 1, differs: -1, not told by the tests: 0
     parameters : [{name, unit, stands_for, value, standard_uncertainty, interval95, degrees_of_freedom, design,
         design_uncertainty, agrees}], what the tests determine, in `unit`
@@ -149,6 +150,7 @@ def _estimate(found: Estimate, factor: float) -> dict[str, Any]:
 def _design(found: AgainstDesign, part: tuple[slice, ...]) -> dict[str, Any]:
     return {
         "name": found.name,
+        "p_value": found.p_value,
         "compliance_nm_per_N": found.compliance[part] * NM,
         "agrees": found.agrees[part],
         "parameters": [

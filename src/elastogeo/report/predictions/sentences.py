@@ -11,7 +11,7 @@ from elastogeo.prediction import (
     UNCERTAINTY_KNOWN,
 )
 from elastogeo.report.document import UM
-from elastogeo.report.numbers import significant
+from elastogeo.report.numbers import p_said, significant
 from elastogeo.report.sentences import Facts, says
 
 _ALL = 36
@@ -94,6 +94,6 @@ def as_designed(facts: Facts, passed: bool | None) -> str:
     if passed is None:
         return f"No place can be compared with the design.{rigid}{more}"
     agreeing = facts["places"] - facts["differ"]
-    said = "at every place" if passed else f"at {agreeing or 'none'} of {facts['places']} places"
+    said = f"at {agreeing or 'none'} of {facts['places']} places ({p_said(facts['p_value'])} together)"
     sums = f"{facts['parameters_differ']} of {facts['parameters']} compliances, or sums of them, differ by more than U."
     return f"The compliance at the tool is that of the design within U {said}; {sums}{rigid}{more}"
