@@ -102,6 +102,15 @@ def test_what_was_not_asked_for_counts_as_rigid_and_is_in_what_was() -> None:
     assert not [note for note in view_of(across).notes if "not asked for" in note]
 
 
+def test_of_symmetric_joints_fewer_are_unknown_and_the_ceilings_are_theirs() -> None:
+    explained = explain(at_the_tool(), parameters=["C_*"], reciprocal=True)
+    assert (len(explained.confounding.labels), explained.confounding.rank) == (105, 56)
+    notes = view_of(explained).notes
+    assert any("105 compliances, 56 combinations are determined" in note and "at most 73" in note for note in notes)
+    (said,) = [note for note in notes if note.startswith("No test between tool and workpiece")]
+    assert "distinguishes C_XXX, C_XXY, C_XXZ and C_XXA" in said
+
+
 def test_three_directions_see_106() -> None:
     assert found({"tool": at_the_tool(), **{axis: across_x(row) for axis, row in zip("xyz", AXES, strict=True)}}).rank == 106
 

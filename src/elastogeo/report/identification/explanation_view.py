@@ -23,9 +23,8 @@ def explanation_view(explained: Explanation) -> View:
     asked = len(found.labels)
     rows = tuple((name, pretty(combination(found.stands_for(name)))) for name in found.retained)
     table = Table(("parameter", "stands for"), rows, words=(0, 1), title="What is determined")
-    machine = campaign.machine
-    unasked = unasked_words(machine, found) if explained.family else ()
-    words = tuple(map(pretty, (*confounding_words(found), *inseparable_words(machine, found), *unasked)))
+    unasked = unasked_words(campaign, found) if explained.family else ()
+    words = tuple(map(pretty, (*confounding_words(found), *inseparable_words(campaign, found), *unasked)))
     groups = tuple(f"Always together: {', '.join(group)}" for group in found.groups if len(group) > 1)
     bought = () if explained.reciprocity is None else (pretty(reciprocity_words(explained.reciprocity)),)
     steps = (step_table(explained),) if explained.steps else ()

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from elastogeo.estimate import Confounding
-from elastogeo.machine import Machine
+from elastogeo.observe import Campaign
 from elastogeo.planning import ceiling, reason_for
 from elastogeo.report.ceilings import neither_words, remedy_words
 from elastogeo.report.text import listed
 
 
-def inseparable_words(machine: Machine, found: Confounding) -> tuple[str, ...]:
+def inseparable_words(campaign: Campaign, found: Confounding) -> tuple[str, ...]:
     """Compliances that these readings show in one sum, as every test between tool and workpiece does, in a sentence.
 
     Nothing if there are none.
     """
-    bound = ceiling(machine)
+    bound = ceiling(campaign.machine, campaign.question.reciprocal)
     asked = [label for label in found.labels if label in bound.labels]
     together = [
         names
@@ -26,7 +26,7 @@ def inseparable_words(machine: Machine, found: Confounding) -> tuple[str, ...]:
         return ()
     first, *others = together
     more = f", nor {len(others)} more such {'sum' if len(others) == 1 else 'sums'}" if others else ""
-    reasons = [why for name in first if (why := reason_for(machine, bound, name)) is not None]
+    reasons = [why for name in first if (why := reason_for(campaign.machine, bound, name)) is not None]
     told = next((f" {remedy_words(why.remedy, why.name)}" for why in reasons if why.remedy), "")
     return (
         f"No test between tool and workpiece distinguishes {listed(first)}{more}: what moves between them changes "
@@ -34,9 +34,9 @@ def inseparable_words(machine: Machine, found: Confounding) -> tuple[str, ...]:
     )
 
 
-def unasked_words(machine: Machine, found: Confounding) -> tuple[str, ...]:
+def unasked_words(campaign: Campaign, found: Confounding) -> tuple[str, ...]:
     """Compliances that were not asked for and that what was asked holds, whatever the test, in a sentence; or nothing."""
-    bound = ceiling(machine)
+    bound = ceiling(campaign.machine, campaign.question.reciprocal)
     showing = [label for group in found.groups for label in group if label in bound.labels]
     held = []
     for alike in bound.alike(bound.labels):

@@ -70,7 +70,7 @@ def identification_view(result: Identification) -> View:
         notes=(
             *together_words(result),
             *stands_for(result),
-            *inseparable_words(campaign.machine, result.confounding),
+            *inseparable_words(campaign, result.confounding),
             *recovered_words(result),
             *log_words(campaign),
             *own_results_words(campaign),
@@ -300,7 +300,7 @@ def _confounding(result: Identification) -> Section:
     tables = (Table(("parameter", "stands for"), rows, words=(0, 1)), facts) if rows else (facts,)
     return Section(
         f"What this test {'distinguishes' if whole else 'cannot distinguish'}",
-        tuple(map(pretty, (*confounding_words(found), *inseparable_words(result.campaign.machine, found)))),
+        tuple(map(pretty, (*confounding_words(found), *inseparable_words(result.campaign, found)))),
         (picture("patterns", result),) if not result.campaign.several else (),
         tables,
     )
