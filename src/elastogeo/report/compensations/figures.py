@@ -13,6 +13,8 @@ from elastogeo.report.drawing.style import BLUE, FAINT, ORANGE, new_figure
 
 _SIDES = ((0, BLUE, "+"), (1, ORANGE, "−"))
 _BAND = 0.18
+_MARKED = 50
+"""Points that are marked, each."""
 
 
 def compensation_figure(one: CompensatedError) -> Figure:
@@ -37,7 +39,8 @@ def compensation_figure(one: CompensatedError) -> Figure:
 def _drawn(ax: Axes, place: Array, value: Array, doubt: Array | None) -> None:
     ax.axhline(0.0, color=FAINT, linewidth=0.7, zorder=0)
     for k, colour, sign in _SIDES:
-        ax.plot(place, value[:, k], color=colour, marker="o", markersize=2.5, label=f"come to in {sign}")
+        marker = "o" if len(place) <= _MARKED else ""
+        ax.plot(place, value[:, k], color=colour, marker=marker, markersize=2.5, label=f"come to in {sign}")
         if doubt is not None and np.isfinite(doubt[:, k]).all():
             low, high = value[:, k] - doubt[:, k], value[:, k] + doubt[:, k]
             ax.fill_between(place, low, high, color=colour, alpha=_BAND, linewidth=0, label="95 %" if k == 0 else None)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from elastogeo.prediction.compensation import CompensatedError, Compensation, LeftOut
 from elastogeo.report.compensations.document import compensation_json
 from elastogeo.report.compensations.scale import said as said_size
@@ -27,6 +29,11 @@ _REASONS = {
 _KEYS = 3
 _LINES = 60
 """Of a file that the page shows."""
+_ROWS = 25
+"""Of a table by point: more are thinned, the JSON has all."""
+_FAR = 1e-3
+"""An angle [rad] that counts as much as a millimetre."""
+_ALL = "Errors before and after"
 
 
 @views(Compensation)
@@ -55,12 +62,15 @@ def compensation_view(found: Compensation) -> View:
 def _lead(found: Compensation) -> str:
     if not found.errors:
         return "Nothing is written: no error was found that is certain and that this control makes good."
-    parts = [
+    one = max(found.errors, key=lambda error: error.before[0] / (_FAR if error.error.is_angular else 1.0))
+    told = (
         f"{one.error.name} falls from {said_with(*one.before, one.error.is_angular)} to at most "
-        f"{said_size(one.bound, one.error.is_angular)}"
-        for one in found.errors
-    ]
-    return f"{'; '.join(parts)}: greatest deviation found, and the farthest end of the intervals expected after."
+        f"{said_size(one.bound, one.error.is_angular)}: greatest deviation found, and the farthest end of the intervals "
+        f"expected after."
+    )
+    if len(found.errors) == 1:
+        return told
+    return f"{len(found.errors)} errors are made good. The greatest: {told}"
 
 
 def _values(found: Compensation) -> Iterator[KeyValue]:
@@ -110,23 +120,28 @@ def _left(out: LeftOut) -> tuple[str, str, str]:
 def _notes(found: Compensation) -> Iterator[str]:
     if found.volume is not None:
         whole = found.volume
-        before, after, bound = (said_size(size, False) for size in (whole.before, whole.after, whole.bound))
+        before, bound = (said_size(size, False) for size in (whole.before, whole.bound))
         yield (
             f"At {whole.poses} poses within the travel of the tests ({', '.join(whole.axes)} together) the deviation along "
-            f"{', '.join(whole.components)} falls from {before} to {after}, at most {bound}: what two axes cause together "
-            f"is in no table and stays."
+            f"{', '.join(whole.components)} falls from {before} to at most {bound}: what two axes cause together is in no "
+            f"table and stays."
         )
     yield (
         "Deviations are actual less nominal. What is expected after is what was found less what the control makes of these "
         "files; its interval is that of what was found, so a test after is to lie in it."
     )
-    for one in found.errors:
-        scale = scale_of(one.error)
-        low, high = (pretty(f"{end * scale.place_factor:.6g}") for end in one.error.span)
-        yield f"{one.error.name} was read from {low} to {high} {scale.place_unit}; beyond that nothing is predicted."
+    if found.errors:
+        yield f"Read were {'; '.join(dict.fromkeys(map(_span, found.errors)))}. Beyond that nothing is predicted."
+
+
+def _span(one: CompensatedError) -> str:
+    scale = scale_of(one.error)
+    low, high = (pretty(f"{end * scale.place_factor:.6g}") for end in one.error.span)
+    return f"{one.error.axis} from {low} to {high} {scale.place_unit}"
 
 
 def _sections(found: Compensation, drawn: list[Picture]) -> Iterator[Section]:
+    yield Section(_ALL, paragraphs=tuple(_notes(found)), tables=tuple(_tables(found)))
     for k, one in enumerate(found.errors):
         yield Section(one.error.name, pictures=tuple(drawn[k : k + 1]) if k else (), tables=(_points(one),))
     for name, data in found.files.items():
@@ -141,15 +156,17 @@ def _points(one: CompensatedError) -> Table:
     scale, before, after, correction = scale_of(one.error), one.error, one.residual, one.correction
     u = scale.factor
     rows = []
-    for k, place in enumerate(before.position):
-        cells = [f"{place * scale.place_factor:.6g}"]
+    shown = np.unique(np.linspace(0, len(before.position) - 1, min(len(before.position), _ROWS)).round().astype(int))
+    for k in shown:
+        cells = [f"{before.position[k] * scale.place_factor:.6g}"]
         for side in (0, 1):
             numbers = before.value[k, side], before.uncertainty[k, side], correction[k, side], after.value[k, side]
-            cells += [f"{number * u:.2f}" for number in numbers]
+            cells += [f"{round(number * u, 2) + 0.0:.2f}" for number in numbers]
         rows.append(tuple(map(pretty, cells)))
     headings = [f"{before.axis} [{scale.place_unit}]"]
     headings += [f"{what} {side} [{scale.unit}]" for side in "+−" for what in ("before", "U", "correction", "after")]
-    return Table(tuple(headings), tuple(rows), (), "By point and direction")
+    note = f"Of {len(before.position)} points; the JSON has all." if len(shown) < len(before.position) else ""
+    return Table(tuple(headings), tuple(rows), (), "By point and direction", note)
 
 
 def _picture(one: CompensatedError) -> Picture:
