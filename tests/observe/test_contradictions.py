@@ -107,6 +107,33 @@ def test_one_run_in_um_under_radial_mm_is_refused() -> None:
         check_runs(runs)
 
 
+@pytest.mark.parametrize("force", [0.0, 364.0])
+@pytest.mark.parametrize(
+    ("factor", "told"),
+    [
+        (1 / 25.4, r"about 25\.4 times smaller.*name the column radial_in"),
+        (1 / 25.4e3, r"about 25400 times smaller.*name the column radial_in"),
+        (1e-6, r"about 1000000 times smaller.*name the column radial_m$"),
+        (25.4, r"about 25\.4 times larger.*name the column radial_mm"),
+    ],
+)
+def test_one_run_in_inches_or_metres_is_refused(factor: float, told: str, force: float) -> None:
+    others = [run(f"n{k}", trace(force=force, seed=k), force=force) for k in range(3)]
+    with pytest.raises(InputError, match=f"run 'off' has readings {told}"):
+        check_runs([*others, run("off", trace(force=force, seed=9, scale=factor), force=force)])
+
+
+@pytest.mark.parametrize("shown", ["time", "past a full turn"])
+def test_a_rising_run_marked_clockwise_is_refused_where_it_shows_its_order(shown: str) -> None:
+    """A table that is sorted by angle has no time that grows with it, and does not go past a full turn."""
+    columns = trace() if shown == "time" else trace(np.remainder(TURN + 90, 360))
+    if shown == "time":
+        columns["time"] = np.arange(len(TURN)) * 0.01
+    with pytest.raises(InputError, match=r"run 'a' goes counter-clockwise, its angles grow in the order in which they were"):
+        check_runs([run("a", columns, sense=-1)])
+    check_runs([run("a", trace(), sense=-1)])
+
+
 def test_equal_files_are_refused_by_both_names() -> None:
     same = trace()
     with pytest.raises(InputError, match=r"runs 'a' and 'b' hold the same readings: runs/b\.csv has the content of runs/a"):

@@ -6,6 +6,7 @@ Only what no ordinary test does is refused: partial arcs, small machines, quiet 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,10 +23,42 @@ COPIED = 16
 SAME_SPAN = 0.02
 """Relative difference of two arcs of one test, at most, for one to be the other in another unit."""
 PER_DEGREE = np.pi / 180
-SIGNALS_APART, NOISES_APART = (10.0, 1e5), (50.0, 5e3)
-"""Ratios of readings and of their noise that mm read as um give, with decimals cut off or at another force."""
-FORCES_APART = 30.0
-"""Runs whose forces differ by more than this factor are not compared in size, nor a loaded one with an unloaded one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mistaken:
+    """A unit that is taken for another.
+
+    Attributes
+    ----------
+    factor : float
+        Of the one in the other.
+    signals, noises : tuple of 2 float
+        Ratios of readings and of their noise that it gives, with decimals cut off or at another force.
+    forces : float
+        Runs whose forces differ by more than this factor are not compared, nor a loaded one with an unloaded one.
+    smaller, larger : str
+        What to do with a run whose readings are smaller, or larger.
+    """
+
+    factor: float
+    signals: tuple[float, float]
+    noises: tuple[float, float]
+    forces: float
+    smaller: str
+    larger: str
+
+
+_IN_MM, _IN_UM, _IN_INCHES = (f"{unit}, name the column radial_{unit}" for unit in ("mm", "um", "in"))
+
+MISTAKEN = (
+    Mistaken(25.4, (12.0, 50.0), (6.0, 100.0), 1.5, f"{_IN_INCHES} (inches)", _IN_MM),
+    Mistaken(1e3, (10.0, 1e5), (50.0, 5e3), 30.0, f"{_IN_MM} (or radial_m, if the others are mm)", _IN_UM),
+    Mistaken(2.54e4, (1e3, 1e6), (5e3, 1.2e5), 30.0, f"{_IN_INCHES} (inches)", _IN_UM),
+    Mistaken(1e6, (1e4, 1e8), (1.2e5, 5e6), 30.0, "m, name the column radial_m", _IN_UM),
+)
+"""Inches among mm, then mm, inches and metres among um. Inches among mm are compared at one force: runs do differ by ten,
+but not at one force and in their noise too."""
 
 
 Size = tuple[float, float]
@@ -92,9 +125,12 @@ def _varied(run: Run) -> bool:
 
 
 def _check_directions(runs: Sequence[Run]) -> None:
-    """A stated direction against the order of the angles; growing ones may be a table sorted by angle, which shows none."""
+    """A stated direction against the order of the angles; growing ones may be a table sorted by angle, which shows none.
+
+    They are none if those of another run fall, if they begin anew within the run, or if a time grows with them.
+    """
     ways = {run.name: turning(run.columns["angle"]) for run in runs if "angle" in run.columns}
-    as_they_came = any(way < 0 for way in ways.values())
+    falling = any(way < 0 for way in ways.values())
     for run in runs:
         way = ways.get(run.name, 0)
         if way < 0 < run.sense:
@@ -102,11 +138,18 @@ def _check_directions(runs: Sequence[Run]) -> None:
                 f'run {run.name!r} goes clockwise, its angles fall, but the test says sense = "ccw"; write sense = "cw", '
                 f"or leave it out"
             )
-        if way > 0 > run.sense and as_they_came:
+        if way > 0 > run.sense and (falling or _is_as_it_came(run)):
+            shown = "while those of other clockwise runs fall" if falling else "in the order in which they were read"
             raise InputError(
-                f"run {run.name!r} goes counter-clockwise, its angles grow while those of other clockwise runs fall, but "
-                f'the test says sense = "cw"; write sense = "ccw", or leave it out'
+                f"run {run.name!r} goes counter-clockwise, its angles grow {shown}, but the test says "
+                f'sense = "cw"; write sense = "ccw", or leave it out'
             )
+
+
+def _is_as_it_came(run: Run) -> bool:
+    """Whether a run shows that it is not sorted by angle: it has a time that grows, or goes past a full turn."""
+    time, turned = run.columns.get("time"), np.remainder(run.columns["angle"], 2 * np.pi)
+    return (time is not None and bool((np.diff(time) > 0).all())) or bool((np.diff(turned) < -np.pi).any())
 
 
 def _check_angles(runs: Sequence[Run]) -> None:
@@ -128,26 +171,27 @@ def _is_near(span: float, other: float) -> bool:
 
 
 def _check_sizes(runs: Sequence[Run]) -> None:
-    """One run in mm under `radial_um`, or the other way round: its signal and its noise are both off by a thousand."""
+    """One run in another unit than its column says: its signal and its noise are both off by the same factor."""
     sizes = {run.name: size for run in runs if (size := _size(run)) is not None}
     forces = {run.name: abs(run.force or run.pressure or 0.0) for run in runs}
     for name, own in sizes.items():
-        others = [other for key, other in sizes.items() if key != name and _are_alike(forces[name], forces[key])]
-        if 2 * sum(_is_thousandth(own, other) for other in others) > len(others):
-            raise InputError(
-                f"run {name!r} has readings about 1000 times smaller than the other runs, noise included; if they are mm, "
-                f"name the column radial_mm"
-            )
-        if len(others) > 1 and 2 * sum(_is_thousandth(other, own) for other in others) > len(others):
-            raise InputError(
-                f"run {name!r} has readings about 1000 times larger than the other runs, noise included; if they are um, "
-                f"name the column radial_um"
-            )
+        for unit in MISTAKEN:
+            others = [
+                other for key, other in sizes.items() if key != name and _are_alike(forces[name], forces[key], unit.forces)
+            ]
+            smaller = 2 * sum(_is_apart(own, other, unit) for other in others) > len(others)
+            larger = len(others) > 1 and 2 * sum(_is_apart(other, own, unit) for other in others) > len(others)
+            if smaller or larger:
+                which, advice = ("smaller", unit.smaller) if smaller else ("larger", unit.larger)
+                raise InputError(
+                    f"run {name!r} has readings about {unit.factor:.15g} times {which} than the other runs, noise included; "
+                    f"if they are {advice}"
+                )
 
 
-def _is_thousandth(size: Size, other: Size) -> bool:
-    """Whether signal and noise of a run are to those of another as mm to um."""
-    limits = (SIGNALS_APART, NOISES_APART)
+def _is_apart(size: Size, other: Size, unit: Mistaken) -> bool:
+    """Whether signal and noise of a run are to those of another as one unit to the other."""
+    limits = (unit.signals, unit.noises)
     return all(one > 0 and low < two / one < high for one, two, (low, high) in zip(size, other, limits, strict=True))
 
 
@@ -158,6 +202,6 @@ def _size(run: Run) -> Size | None:
     return float(np.std(readings)), float(np.sqrt(np.mean(np.diff(readings, 2) ** 2)))
 
 
-def _are_alike(force: float, other: float) -> bool:
-    """Whether two forces (or pressures) are of one order, or both none."""
-    return force == other or (other > 0 and 1 / FORCES_APART < force / other < FORCES_APART)
+def _are_alike(force: float, other: float, apart: float) -> bool:
+    """Whether two forces (or pressures) are within a factor of each other, or both none."""
+    return force == other or (other > 0 and 1 / apart < force / other < apart)
