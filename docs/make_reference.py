@@ -55,6 +55,7 @@ RECIPES = {
     "A language of programs": "elastogeo.formats.program_files",
     "An instrument": "elastogeo.observe.instruments",
     "An error source": "elastogeo.sources.families",
+    "A test that can be planned": "elastogeo.planning.offers.proposal",
     "A result that shows itself": "elastogeo.report.view",
 }
 

@@ -102,6 +102,7 @@ def test_the_plan_is_the_same_in_any_unit_of_length(length: float, monkeypatch: 
         readings=plain.readings,
         radii=tuple(radius * length for radius in plain.radii),
         feed=plain.feed * length,
+        margin=plain.margin * length,
     )
     noise = ReadingNoise(reading=1e-4 * length, set_up=2e-4 * length)
     after = eg.plan(means, tests=4, count=30, noise=noise)

@@ -1,5 +1,7 @@
 """A plan: what it promises, that it keeps its budget, that no unit decides it, and the traps of planning.md."""
 
+import sys
+import textwrap
 from dataclasses import replace
 
 import numpy as np
@@ -7,7 +9,8 @@ import pytest
 
 import elastogeo as eg
 from elastogeo.errors import InputError, UnsupportedError
-from elastogeo.planning import Candidate, Means, Plan, ReadingNoise, candidates, unknowns, whitened
+from elastogeo.observe import instruments
+from elastogeo.planning import Candidate, Means, Plan, ReadingNoise, candidates, proposals, proposes, unknowns, whitened
 from elastogeo.report import view_of
 
 HERMLE = eg.read_machine("hermle_c50")
@@ -143,3 +146,24 @@ def test_tests_made_already_are_kept(some: tuple[Candidate, ...], planned: Plan)
     alone = eg.plan(means, tests=4, chosen_from=some)
     assert more.rank > alone.rank
     assert more.tools[0].worst_with_prior < alone.tools[0].worst_with_prior
+
+
+def test_every_instrument_that_loads_the_machine_can_be_planned_but_the_nest() -> None:
+    """A nest of sensors presses its ball with a force that serves to hold it: it tells geometry."""
+    loading = {name for name, kind in instruments().items() if kind.loads and kind.__module__.startswith("elastogeo.")}
+    assert loading - set(proposals()) == {"sphere-nest"}
+
+
+def test_the_recipe_for_a_proposal_is_complete(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As it stands in the docstring of the contract."""
+    text = str(sys.modules[proposes.__module__].__doc__)
+    code = textwrap.dedent(
+        "\n".join(line for line in text.split("`pushes.py`::")[1].splitlines() if line[:4].isspace() or not line)
+    )
+    registered = dict(proposals())
+    monkeypatch.setattr(sys.modules[proposes.__module__], "_REGISTER", registered)
+    exec(compile(code, "pushes.py", "exec"), {"__name__": "pushes"})
+    pushed = candidates(Means(HERMLE), ["static-force"], 3)
+    assert [one.name for one in pushed] == ["push_1", "push_2", "push_3"]
+    rows = whitened([one.test for one in pushed], unknowns(HERMLE), ReadingNoise())
+    assert [len(own) for own in rows] == [1, 1, 1]

@@ -15,9 +15,6 @@ from elastogeo.planning.offers.clearance import Flags, longest_arc
 from elastogeo.planning.offers.means import Means, minutes
 from elastogeo.planning.offers.proposal import Draft, proposes
 
-MARGIN = 10.0
-"""Of the travel [mm] that a circle leaves, for feed-in and overshoot."""
-
 LEAST_ARC = np.deg2rad(120.0)
 """Of a circle that the spindle and the post leave free."""
 
@@ -98,7 +95,7 @@ def _draft(means: Means, circle: Circle, tool: Point, word: str, make: MakeSetup
         seen = setup.observe(means.machine, _run("free", angle, forces[0] if forces else None))
     except PathError:
         return None
-    if not means.within(seen.commands, MARGIN):
+    if not means.within(seen.commands):
         return None
     free = means.clearance.free(means.machine, seen)
     # a motion of a rotary axis need not close: an arc of it does not go around the end

@@ -9,7 +9,7 @@ from math import inf
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, Feed, Forces, Lengths, Machine, Point
+from elastogeo.machine import Array, Feed, Forces, Length, Lengths, Machine, Point
 from elastogeo.observe import Setup
 from elastogeo.planning.offers.clearance import Clearance
 
@@ -40,6 +40,8 @@ class Means:
     turning : bool
         Whether rotary axes may move within a test.
     clearance : Clearance
+    margin : float [mm]
+        Of the travel that a moving test leaves at each end, for feed-in and overshoot.
     engagements : tuple of float [mm]
         Of a roller in a ball.
     devices : mapping of str to Setup
@@ -55,6 +57,7 @@ class Means:
     rotary: bool = True
     turning: bool = True
     clearance: Clearance = field(default_factory=Clearance)
+    margin: Length = 10.0
     engagements: Lengths = (0.08, 0.2)
     devices: Mapping[str, Setup] = field(default_factory=dict)
 
@@ -100,12 +103,12 @@ class Means:
         low, high = joint.travel
         return (max(low, -np.pi), min(high, np.pi)) if joint.is_rotary else (low, high)
 
-    def within(self, commands: Array, margin: float) -> bool:
-        """Whether the linear axes stay a margin [mm] within their travel, at commands of shape (m, n)."""
+    def within(self, commands: Array) -> bool:
+        """Whether the linear axes stay within their travel by the margin, at commands of shape (m, n)."""
         for axis in self.linear:
             low, high = self.travel(axis)
             path = commands[:, self.machine.index(axis)]
-            if path.min() < low + margin or path.max() > high - margin:
+            if path.min() < low + self.margin or path.max() > high - self.margin:
                 return False
         return True
 

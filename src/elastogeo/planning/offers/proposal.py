@@ -1,4 +1,27 @@
-"""The register of proposals: which tests an instrument could make with what there is."""
+'''The register of proposals: which tests an instrument could make with what there is.
+
+To let `elastogeo plan` choose tests of an instrument, write one file in this wing with a function that registers itself. It
+gives drafts without end: a `Candidate`, whose test has runs with poses and forces and readings of zero, or None for a draw
+that does not fit. What its tests tell comes from the instrument itself. A complete one, `pushes.py`::
+
+    """A push along z and a sensor beside it, anywhere in the travel."""
+
+    import numpy as np
+
+    from elastogeo.observe import MachineTest, Run, StaticForce
+    from elastogeo.planning import Candidate, proposes
+
+
+    @proposes("static-force")
+    def pushes(means, random):
+        while True:
+            setup = StaticForce(direction=(0.0, 0.0, 1.0), pose=means.somewhere(random))
+            columns = {"force": np.array(means.forces), "displacement": np.zeros(len(means.forces))}
+            test = MachineTest("push", means.machine, setup, (Run("levels", columns),))
+            yield Candidate("push", test, minutes=12.0)
+
+`Means` says what there is (tools, forces, bars, the clearance) and draws places and turned axes within the travel.
+'''
 
 from __future__ import annotations
 
