@@ -19,11 +19,11 @@ SHOWN = 40
 _WORD = re.compile(r"([A-Z])([+-]?(?:\d+\.?\d*|\.\d+))", re.ASCII)
 _WORDS = re.compile(r"(?:[A-Z][+-]?(?:\d+\.?\d*|\.\d+))*", re.ASCII)
 _COMMENT = re.compile(r"\(([^()]*)\)")
-_SILENT = frozenset("STHD")
-"""Words that move nothing: spindle, tool, offsets."""
+_SPECIAL = frozenset("GMNOSTHD")
+"""Words that are no positions: of these S, T, H, D move nothing (spindle, tool, offsets)."""
 
 _NO_WORDS = str.maketrans("", "", " \t\r\n\x0b\x0c\ufeff")
-_STOPS, _CALLS = (0, 1), (97, 98, 198)
+_STOPS, _CALLS = frozenset({0, 1}), frozenset({97, 98, 198})
 _POSITIONS = frozenset("XYZUVWABCIJKR")
 
 
@@ -36,10 +36,11 @@ def program_lines(data: bytes, source: str) -> Iterator[tuple[int, str]]:
         If it is no text, or a line is longer than any block.
     """
     try:
-        text = utf8_text(data).decode()
+        text = utf8_text(data)
     except FormatError as error:
         raise FormatError(f"{source}: {error}") from None
-    for number, line in enumerate(io.StringIO(text), 1):
+    for number, coded in enumerate(io.BytesIO(text), 1):
+        line = coded.decode()
         if len(line) > MOST_IN_LINE:
             raise FormatError(
                 f"{source}, line {number}: has {len(line)} characters, and a block has {MOST_IN_LINE} at most; "
@@ -93,31 +94,29 @@ def read_iso(data: bytes, source: str, reading: Reading, dialect: Dialect, *, po
             raise modal.fail(_why_not(text))
         codes, words, functions = [], {}, []
         for letter, value in _WORD.findall(text):
-            if letter == "G":
+            if letter not in _SPECIAL:
+                if letter in words:
+                    raise modal.fail(f"the word {letter} stands twice in one block; take one out")
+                words[letter] = float(value)
+                if point_matters and "." not in value and letter in _POSITIONS:
+                    increments += value.strip("+-0") != ""
+                    words[letter] *= 0.001 if reading.whole_numbers == "um" else 1.0
+            elif letter == "G":
                 codes.append(float(value))
             elif letter == "M":
                 functions.append(int(float(value)))
                 if functions[-1] in _CALLS:
                     raise modal.fail(f"M{value} calls another program; post-process one program without calls")
-            elif letter == "N":
-                continue
             elif letter == "O":
                 name = name or f"O{value}"
-            elif letter in _SILENT:
+            elif letter != "N":
                 modal.left_out[f"{letter}{value}"] += 1
-            elif letter in words:
-                raise modal.fail(f"the word {letter} stands twice in one block; take one out")
-            elif point_matters and "." not in value and letter in _POSITIONS:
-                increments += value.strip("+-0") != ""
-                words[letter] = float(value) * (0.001 if reading.whole_numbers == "um" else 1.0)
-            else:
-                words[letter] = float(value)
-        stops = any(function in _STOPS for function in functions)
-        if comment and not stops:
+        if comment and not set(functions) & _STOPS:
             modal.comment(comment)
         if codes or words:
             modal.block(codes, words)
-        _do(functions, comment, modal)
+        if functions:
+            _do(functions, comment, modal)
     if increments:
         modal.left_out[f"numbers without a decimal point taken in {reading.whole_numbers}"] += increments
     return modal.program(name or source)

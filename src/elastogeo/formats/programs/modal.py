@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -99,7 +100,7 @@ class Modal:
     dialect: Dialect
     reading: Reading
     packing: Packing = field(default_factory=Packing)
-    lines: list[int] = field(default_factory=list)
+    lines: array[int] = field(default_factory=lambda: array("q"))
     left_out: Counter[str] = field(default_factory=Counter)
     at: list[float] = field(default_factory=lambda: list(_NOWHERE))
     motion: int = -1
@@ -255,7 +256,7 @@ class Modal:
         feed = self.feed
         if feed != feed:
             raise self.fail("a move at a feed that was never given; write F")
-        turning = any(e != s and e == e for s, e in zip(start[LINEAR:], end[LINEAR:], strict=True))
+        turning = start[LINEAR:] != end[LINEAR:]
         if self.feed_mode == 94 and not turning:
             return feed / 60.0
         linear = _distance(start[:LINEAR], end[:LINEAR])

@@ -154,15 +154,17 @@ class Packing:
                 self.other(block)
 
     def packed(self) -> PackedBlocks:
-        """What was added."""
+        """What was added; nothing can be added after it, as the arrays are the same memory."""
         width = len(PROGRAM_AXES)
+        if not len(self):
+            return _NOTHING
         return PackedBlocks(
-            np.array(self._kind, dtype=np.int8),
-            np.array(self._to).reshape(-1, width),
-            np.array(self._feed),
-            np.array(self._plane, dtype=np.int8),
-            np.array(self._centre).reshape(-1, 2),
-            np.array(self._turns, dtype=np.int16),
+            np.frombuffer(self._kind, dtype=np.int8),
+            np.frombuffer(self._to).reshape(-1, width),
+            np.frombuffer(self._feed),
+            np.frombuffer(self._plane, dtype=np.int8),
+            np.frombuffer(self._centre).reshape(-1, 2),
+            np.frombuffer(self._turns, dtype=np.int16),
             self._others,
         )
 
@@ -173,6 +175,17 @@ class Packing:
         self._plane.append(plane)
         self._centre.extend(centre)
         self._turns.append(turns)
+
+
+_NOTHING = PackedBlocks(
+    np.zeros(0, dtype=np.int8),
+    np.zeros((0, len(PROGRAM_AXES))),
+    np.zeros(0),
+    np.zeros(0, dtype=np.int8),
+    np.zeros((0, 2)),
+    np.zeros(0, dtype=np.int16),
+    {},
+)
 
 
 def packed(blocks: Iterable[Block]) -> PackedBlocks:
