@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 import textwrap
+import tracemalloc
 from collections.abc import Iterator
 from math import pi
 from pathlib import Path
@@ -221,3 +222,27 @@ def test_the_face_writes_and_reads(tmp_path: Path) -> None:
         eg.write_program(tests, tmp_path / "programs", overshot=3)
     with pytest.raises(InputError, match=r"there is no flavour 'siemens' of programs; there are: .*linuxcnc \(LinuxCNC\)"):
         eg.write_program(tests, tmp_path / "programs", "siemens")
+
+
+def test_a_plan_has_a_program_for_each_of_its_tests(tmp_path: Path) -> None:
+    plan = eg.plan(eg.read_machine("hermle_c50"), tests=2, count=12)
+    files = eg.write_program(plan, tmp_path / "programs", "heidenhain", feed_in=3.0)
+    assert len(files) == 2
+    for file, planned in zip(files, plan.tests, strict=True):
+        assert file.stem == planned.candidate.name
+        assert eg.read_program(file).axes
+
+
+def test_many_blocks_are_read_in_bounded_memory() -> None:
+    def used(count: int) -> float:
+        lines = "".join(f"N{k}G1X{k % 100}.{k % 1000:03d}Y{k % 77}.5F1000\n" for k in range(count))
+        data = f"G21 G90 G94\n{lines}M30\n".encode()
+        tracemalloc.start()
+        program = read_program_bytes(data, "x", "iso")
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert len(program.blocks) == count
+        return peak / count
+
+    assert used(20_000) < 160
+    assert used(20_000) < 1.3 * used(5_000)

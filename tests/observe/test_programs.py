@@ -227,3 +227,11 @@ def test_an_instrument_of_its_own_only_stops() -> None:
     blocks = instruments()["dial-gauge"]().program(of_template("ball-bar").machine, [Run("one", {})], Procedure())
     assert [type(block) for block in blocks] == [Comment, Stop]
     assert not any(isinstance(block, Line) for block in blocks)
+
+
+def test_a_bar_at_probes_that_do_not_turn_stands_still() -> None:
+    test = of_template("displacement-probes")
+    still = replace(test, setup=replace(test.setup, rotary_turn={}))
+    program = still.program()
+    assert [type(block).__name__ for block in program.blocks if isinstance(block, Line | Arc)] == ["Line", "Line"]
+    assert sum(isinstance(block, Dwell) for block in program.blocks) == len(test.runs)

@@ -48,17 +48,18 @@ What the contract asks:
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar, runtime_checkable
 
 from elastogeo.discovery import import_all
 from elastogeo.errors import InputError
 from elastogeo.formats.text.by_content import add, format_of, opened
 from elastogeo.formats.text.whole_files import write_whole
 from elastogeo.machine import Angle, Length, Program, ProgramLimits
-from elastogeo.observe import Askable, Procedure, campaign_of, short_name
+from elastogeo.observe import Askable, Campaign, Procedure, campaign_of, short_name
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,6 +165,17 @@ class Flavour:
 
 
 T = TypeVar("T")
+
+
+@runtime_checkable
+class Planned(Protocol):
+    """What has planned tests: a plan."""
+
+    @property
+    def campaign(self) -> Campaign:
+        """The planned tests."""
+
+
 _FLAVOURS: dict[str, Flavour] = {}
 
 
@@ -242,13 +254,15 @@ def program_text(program: Program, flavour: str, writing: Writing | None = None)
     return flavour_named(flavour).write(program, writing or Writing())
 
 
-def write_program(what: Program | Askable, path: str | Path, flavour: str = "iso", **settings: Any) -> tuple[Path, ...]:
+def write_program(
+    what: Program | Askable | Planned, path: str | Path, flavour: str = "iso", **settings: Any
+) -> tuple[Path, ...]:
     """Write the program of a test, or of each of several, in the language of a control.
 
     Parameters
     ----------
-    what : Program, MachineTest, Campaign, sequence of MachineTest, or mapping of str to MachineTest
-        A test gives the program that moves the machine as its instrument wants it.
+    what : Program, MachineTest, Campaign, Plan, sequence of MachineTest, or mapping of str to MachineTest
+        A test gives the program that moves the machine as its instrument wants it; a plan those of its tests.
     path : str or Path
         The file; for several tests a folder, which gets a file for each, named after it.
     flavour : str
@@ -279,7 +293,7 @@ def write_program(what: Program | Askable, path: str | Path, flavour: str = "iso
     return write_whole({target: text.encode("ascii") for target, text in zip(targets, texts.values(), strict=True)})
 
 
-def programs_of(what: Program | Askable, **settings: Any) -> tuple[dict[str, Program], Writing]:
+def programs_of(what: Program | Askable | Planned, **settings: Any) -> tuple[dict[str, Program], Writing]:
     """The program of each test under the test's short name, and how it is written; as `write_program`."""
     known = {one: [field.name for field in fields(one)] for one in (Procedure, Writing, ProgramLimits)}
     unknown = [name for name in settings if not any(name in names for names in known.values())]
@@ -288,9 +302,14 @@ def programs_of(what: Program | Askable, **settings: Any) -> tuple[dict[str, Pro
         raise InputError(f"programs have no setting {unknown[0][:40]!r}; there are: {', '.join(listed)}")
     procedure, writing, limits = _chosen(Procedure, settings), _chosen(Writing, settings), _chosen(ProgramLimits, settings)
     if isinstance(what, Program):
-        return {short_name(what.name): what}, writing
-    tests = campaign_of(what).tests
-    return {short_name(name): test.program(procedure, limits) for name, test in tests.items()}, writing
+        return {_file_name(what.name): what}, writing
+    tests = campaign_of(what.campaign if isinstance(what, Planned) else what).tests
+    return {_file_name(name): test.program(procedure, limits) for name, test in tests.items()}, writing
+
+
+def _file_name(name: str) -> str:
+    """A name of a test as that of a file: as it is, if a campaign would take it."""
+    return name if re.fullmatch(r"[\w.+-]+", name, re.ASCII) else short_name(name)
 
 
 def _chosen(one: type[T], settings: Mapping[str, Any]) -> T:
