@@ -98,17 +98,19 @@ def agrees(one, left: np.ndarray, slack: float = 1e-5) -> float:
 
 
 def test_the_control_does_with_a_file_what_it_says(tmp_path: Path) -> None:
-    """At 100 mm the error is 20 um come to in + and 30 um in -: the motor goes to 99.980 and 99.970, whichever the type.
-
-    And what `BACKLASH = 0.02` does: 10 um either way; and that the last line of a file, which says its axis, is not read.
+    """Type 0, `100 100.020 100.030`: at 100 mm the motor goes to 99.980 on the way up, to 99.970 on the way down. Type 1,
+    `100 0.020 -0.030`: to 100.020 and to 99.970. `BACKLASH = 0.02`: 10 um either way; it is ignored beside a file. The last
+    line of a file, which says its axis, is not read.
     """
     headless_or_skip()
     position = np.array([0.0, 100.0])
-    value = np.array([[0.0, 0.0], [0.020, 0.030]])
-    for letter, kind in (("X", "0"), ("Y", "1")):
-        table = ErrorTable(letter, letter, position, value, np.zeros((2, 2)))
+    errors = {"X": ("0", [0.020, 0.030]), "Y": ("1", [-0.020, 0.030])}
+    for letter, (kind, at_100) in errors.items():
+        table = ErrorTable(letter, letter, position, np.array([[0.0, 0.0], at_100]), np.zeros((2, 2)))
         files = compensation_text([table], "linuxcnc", {"type": kind})
         (tmp_path / f"{letter.lower()}.comp").write_bytes(files[f"{letter.lower()}.comp"])
+    assert (tmp_path / "x.comp").read_text().splitlines()[1] == "100.000000 100.020000 100.030000"
+    assert (tmp_path / "y.comp").read_text().splitlines()[1] == "100.000000 0.020000 -0.030000"
     axes = [
         Axis("X", settings={"COMP_FILE": "x.comp", "COMP_FILE_TYPE": 0}),
         Axis("Y", settings={"COMP_FILE": "y.comp", "COMP_FILE_TYPE": 1, "BACKLASH": 5.0}),
@@ -119,7 +121,7 @@ def test_the_control_does_with_a_file_what_it_says(tmp_path: Path) -> None:
     motor = np.column_stack([recorded.motor[letter][at] for letter in "XYZ"])
     assert recorded.command["X"][at] == pytest.approx([50.0, 100.0, 120.0, 100.0])
     assert motor[:, 0] == pytest.approx([49.990, 99.980, 119.980, 99.970], abs=1e-6)
-    assert motor[:, 1] == pytest.approx(motor[:, 0], abs=1e-6)
+    assert motor[:, 1] == pytest.approx([50.010, 100.020, 120.020, 99.970], abs=1e-6)
     assert motor[:, 2] == pytest.approx([50.010, 100.010, 120.010, 99.990], abs=1e-6)
 
 

@@ -32,6 +32,28 @@ TRUTH = {
 CUT = Cut(ConstantForce((-100.0, 300.0, 0.0), "path"))
 
 
+MILLING = """\
+schema = "elastogeo.cut/1"
+
+[milling]
+diameter_mm = 12
+teeth = 4
+helix_deg = 30
+depth_mm = 2
+width_mm = 3
+speed_rpm = 3000
+material = "Al7075-T6"
+relative_uncertainty = 0.05
+
+[tool]
+relative_uncertainty = 0.1
+sections = [
+    { length_mm = 26, diameter_mm = 9.6, modulus_GPa = 600 },
+    { length_mm = 19, diameter_mm = 12, modulus_GPa = 600 },
+]
+"""
+
+
 @pytest.fixture(scope="module")
 def result() -> Identification:
     """Of the loaded circle at seven levels, simulated exactly, with noise."""
@@ -80,6 +102,20 @@ def test_the_error_falls_as_predicted(result, program, cut):
     checks = {check.name: check.passed for check in found.verdict}
     assert checks["path corrected"]
     assert checks["deviation falls for sure"]
+
+
+def test_a_milled_contour_is_nearer_with_the_force_of_a_milling_model_and_a_tool_that_bends(result, tmp_path):
+    """Force of a four-fluted cutter in Al7075-T6, a stepped tool: geometry, compliance and tool are made good together."""
+    (tmp_path / "cut.toml").write_text(MILLING, encoding="ascii")
+    cut = eg.read_cut(tmp_path / "cut.toml")
+    found = eg.compensate_path(result, contour(), cut)
+    before, after = off(found, cut)
+    stiff, _ = off(found, replace(cut, tool=None))
+    assert np.abs(before - stiff).max() > 1e-3  # the tool counts
+    assert found.before.value[:, :2] == pytest.approx(before, abs=6e-4)
+    assert np.abs(after).max() < 0.1 * np.abs(before).max()
+    within = np.abs(after - found.value[:, :2]) <= found.expanded[:, :2] + 2e-5
+    assert within.mean() > 0.9
 
 
 def test_the_new_program_makes_the_commands_that_were_predicted(result):
