@@ -46,7 +46,7 @@ def path_view(found: PathPrediction) -> View:
         kind="Tool path",
         title=found.path.machine.name,
         subtitle=f"{found.path.name}, predicted from {found.name}",
-        origin=f"Tests simulated: {found.simulated}" if found.simulated else "",
+        origin=f"From tests that were simulated: {found.simulated}" if found.simulated else "",
         head=_head(found),
         sentence=f"{_answer(found)} {attention_sentence(found.verdict)}",
         values=tuple(_values(found)),
