@@ -246,3 +246,53 @@ def test_many_blocks_are_read_in_bounded_memory() -> None:
 
     assert used(20_000) < 160
     assert used(20_000) < 1.3 * used(5_000)
+
+
+@pytest.mark.parametrize(
+    ("text", "flavour"),
+    [
+        ("%\nO1 (SOFT START, TRANS)\nG21 G90\nG0 X1.\nM30\n%\n", "iso"),
+        ("(SOFT START)\nG21 G90\nM0 (MSG, TURN=1 CR=5)\nG0 X1.\nM2\n", "linuxcnc"),
+        ("g21 g64 p0.01\ng0 x1\nm2\n", "linuxcnc"),
+        ("; CYCLE\nN10 G71 G90\nN20 G0 X=IC(5)\nN30 M30\n", "sinumerik"),
+        ('N10 G0 X1\nN20 MSG("GO")\nN30 M30\n', "sinumerik"),
+        ("\n  0  BEGIN PGM 12 MM\n1 L X+1 FMAX\n2 END PGM 12 MM\n", "heidenhain"),
+        ("N1 (a part)\nN2 G0 X1. Y2. S500 M3\nM30\n", "iso"),
+        ("a page of prose, which says G0 nowhere at the beginning of a line\n", ""),
+        ("X,Y\n1,2\n", ""),
+    ],
+)
+def test_the_language_is_told_from_the_words(text: str, flavour: str) -> None:
+    assert [name for name, one in flavours().items() if one.can_read(text.encode())] == ([flavour] if flavour else [])
+
+
+def test_a_program_as_a_system_writes_it_is_followed() -> None:
+    text = """%
+O1001 (POCKET)
+N10 G00 G17 G21 G40 G49 G80 G90 G94
+N20 T5 M06 (END MILL D10)
+N30 G187 P3 E0.01
+N40 G54 S8000 M03
+N50 G00 X-12.5 Y0.
+N60 G43 H05 Z50. M08
+N70 Z2.
+N80 G01 Z-3. F250.
+N90 G02 X12.5 I12.5 J0. F900.
+N100 X-12.5 I-12.5 J0.
+N110 G03 X-12.5 Y0. I12.5
+N120 G91 G01 X1. Y1.
+N130 G90 G00 Z50. M09
+N140 G91 G28 Z0.
+N150 G28 Y0.
+N160 M30
+%
+"""
+    program = read_program_bytes(text.encode(), "x")
+    moves = program.moves()
+    assert program.name == "O1001"
+    assert np.round(np.degrees(moves.sweep[moves.sweep != 0]), 9).tolist() == [-180.0, -180.0, 360.0]
+    assert program.extent() == {"X": (-12.5, 12.5), "Y": (-12.5, 12.5), "Z": (-3.0, 50.0)}
+    assert program.lines is not None
+    assert program.lines[-1] == 15
+    assert "moves in machine coordinates (G28, G30, G53) (2 times)" in program.notes[0]
+    assert moves.feed[-2] == 15.0

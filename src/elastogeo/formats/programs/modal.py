@@ -47,7 +47,7 @@ REFUSED = {
 }
 """Words that would move axes in a way that is not followed."""
 
-PARAMETERS = {64: "PQ", 54.1: "P", 5.1: "PQR", 61.1: "P", 43: "HP", 44: "HP", 49: "H", 5: "P", 8: "P"}
+PARAMETERS = {64: "PQ", 54.1: "P", 5.1: "PQR", 61.1: "P", 43: "HP", 44: "HP", 49: "H", 5: "P", 8: "P", 187: "PE"}
 """Words that belong to a word G which moves nothing."""
 
 HARMLESS = {

@@ -33,5 +33,5 @@ def language(head: bytes) -> str:
 
 
 def _bare(head: bytes) -> bytes:
-    """Without comments."""
-    return re.sub(rb"\([^()\n]*\)|;[^\n]*", b"", head) if b"MSG" not in head else re.sub(rb";[^\n]*", b"", head)
+    """Without comments: a bracket right behind a name is that of a function."""
+    return re.sub(rb"(?<![\w=])\([^()\n]*\)|;[^\n]*", b"", head)
