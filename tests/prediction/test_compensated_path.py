@@ -183,3 +183,20 @@ def test_a_machine_without_an_axis_along_the_deviation_says_so(result):
     with pytest.raises(InputError, match="the tolerance is 0 mm; it must be positive"):
         eg.compensate_path(result, slot(), CUT, tolerance=0.0)
     assert Machine("m", parse_topology("wFXYZt")).axes == ("X", "Y", "Z")
+
+
+def test_a_rapid_move_says_from_which_side_an_axis_came(result):
+    """Behind `G0 X50 Y30` from X0 the nut of X lies as it came, in +, all along a line of Y; Y as it goes."""
+    blocks = [
+        Rapid({"X": -10.0, "Y": 0.0}),
+        Line({"X": 0.0}, 10.0),
+        Rapid({"X": 50.0, "Y": 30.0}),
+        Line({"Y": -20.0}, 10.0),
+    ]
+    path = eg.compensate_path(result, Program("two", blocks)).before.path
+    x, y = (path.machine.index(axis) for axis in "XY")
+    second = path.commands[:, x] == 50.0
+    assert (path.sense[second][:, x] == 1).all()
+    assert (path.sense[second][:, y] == -1).all()
+    assert path.tangent[second][0] == pytest.approx([0.0, -1.0, 0.0], abs=1e-5)
+    assert path.sense[0, y] == 0  # nothing says how Y came to its first place

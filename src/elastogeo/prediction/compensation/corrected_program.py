@@ -16,6 +16,8 @@ SAGITTA = 0.25
 """Share of the tolerance that the points of an arc may lie inside of it."""
 
 _SAME = 1e-9
+_SLOW = 1e-6
+"""Of the greatest velocity: enough to say from which side an axis came, too little to turn the path."""
 
 Rows = np.ndarray[tuple[int], np.dtype[np.intp]]
 
@@ -40,7 +42,17 @@ def fine_path(
     arcs = radius[moves.sweep != 0]
     if len(arcs):
         step = min(step, float(np.sqrt(8 * arcs.min() * SAGITTA * tolerance)))
-    return path_of_program(program, machine, step, zero)
+    return _beginning(path_of_program(program, machine, step, zero))
+
+
+def _beginning(path: ToolPath) -> ToolPath:
+    """The path whose cuts begin as they go on: along the first chord, an axis that stands there as its rapid move had it."""
+    starts = np.flatnonzero(~path.velocity[:-1].any(axis=1))
+    velocity = path.velocity.copy()
+    came = np.sign(path.commands[starts] - path.commands[np.maximum(starts - 1, 0)])
+    ahead = velocity[starts + 1]
+    velocity[starts] = np.where(ahead != 0, ahead, came * _SLOW * np.abs(velocity).max(axis=0))
+    return replace(path, velocity=velocity)
 
 
 def corrected_program(
