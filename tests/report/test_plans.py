@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 import elastogeo as eg
-from elastogeo.planning import Means, Plan
+from elastogeo.planning import Means, Plan, candidates
 from elastogeo.report import sentence_of, view_of
 from elastogeo.report.drawing.style import house_style
+from elastogeo.report.plans.rows import what_of, where_of
 
 HERMLE = eg.read_machine("hermle_c50")
 
@@ -71,3 +72,25 @@ def test_checks_say_what_to_do(planned: Plan) -> None:
     assert "will be supported in 0 % of the volume" in said["workspace supported"]
     assert re.search(r"\d+ more tests? supports? all of it|draw more candidates", said["workspace supported"])
     assert np.isfinite(planned.tools[0].worst_with_prior)
+
+
+@pytest.mark.parametrize(
+    ("instrument", "words"),
+    [
+        ("static-force", "force and sensor"),
+        ("displacement-probes", "3 forces, 3 probes"),
+        ("sensor-frame", "3 forces, 8 sensors"),
+        ("joint-probe", "probe across"),
+        ("ball-bar", "R 1[05]0 mm"),
+    ],
+)
+def test_a_test_of_any_instrument_is_said_in_words(instrument: str, words: str) -> None:
+    for one in candidates(Means(HERMLE, readings=12), [instrument], 3):
+        assert re.search(words, what_of(one))
+        assert re.search(r"X −?\d+", where_of(one))
+
+
+def test_a_ball_roller_test_is_said_in_words() -> None:
+    test = eg.read_test("examples/ball-roller")
+    (one,) = candidates(Means(test.machine, devices={"ball-roller": test.setup}), ["ball-roller"], 1)
+    assert what_of(one).startswith("XY circle, R ")

@@ -98,7 +98,8 @@ def space_of(candidates: Sequence[Array], kept: Sequence[Array]) -> Space:
     basis = row_space(every)
     if not basis.shape[1]:
         raise UnsupportedError(
-            "none of the candidates tells anything of a compliance: it takes two force levels at the same poses"
+            "none of the candidates tells anything of a compliance: it takes an instrument that loads the machine, at two "
+            "force levels at the same poses"
         )
     known = np.vstack([*kept, np.zeros((1, len(basis)))]) @ basis
     rows = tuple(own @ basis for own in candidates)

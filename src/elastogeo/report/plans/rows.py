@@ -53,8 +53,8 @@ def what_of(candidate: Candidate) -> str:
     parts = []
     if "plane" in facts:
         plane = facts["plane"]
-        turn = np.ptp(candidate.test.runs[0].columns["angle"])
-        full = 2 * np.pi * (1 - 1.5 / len(candidate.test.runs[0].columns["angle"]))
+        angle = candidate.test.observations()[0].pose
+        turn, full = np.ptp(angle), 2 * np.pi * (1 - 1.5 / len(angle))
         arc = "circle" if turn > full else f"arc of {degrees(float(turn)):.0f}°"
         parts.append(f"{plane if isinstance(plane, str) else 'tilted'} {arc}, R {facts['radius']:g} mm")
     if "across" in facts:
