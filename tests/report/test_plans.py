@@ -94,3 +94,12 @@ def test_a_ball_roller_test_is_said_in_words() -> None:
     test = eg.read_test("examples/ball-roller")
     (one,) = candidates(Means(test.machine, devices={"ball-roller": test.setup}), ["ball-roller"], 1)
     assert what_of(one).startswith("XY circle, R ")
+
+
+def test_what_was_asked_for_is_on_the_first_screen_and_why_on_the_page() -> None:
+    view = view_of(eg.plan(Means(HERMLE, readings=12), parameters="C_XXX", count=10))
+    values = {value.name: value for value in view.values}
+    assert values["C_XXX"].value.startswith("U = ")
+    assert values["C_XXX"].unit in ("nm/N", "pm/N")
+    points = " ".join(point for section in view.sections for point in section.points)
+    assert "No test between tool and workpiece tells C_XXX by itself" in points

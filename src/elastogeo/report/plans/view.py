@@ -26,6 +26,7 @@ _GOALS = {
 _WORDS = {ALONE: "known alone", IN_A_SUM: "known in a sum", UNSEEN: "not seen"}
 _HOUR = 60.0
 _MOST_REASONS = 3
+_MOST_VALUES = 2
 
 
 @views(Plan)
@@ -68,6 +69,7 @@ def plan_view(plan: Plan) -> View:
                 pictures=(_picture("knowledge", plan, "What the plan will tell of each compliance"),),
                 tables=(_parameter_table(plan),),
             ),
+            Section("What stays unknown, and what comes next", points=tuple(_notes(plan))),
             Section("How it was worked out", points=tuple(_assumptions(plan))),
         ),
     )
@@ -95,10 +97,21 @@ def _values(plan: Plan) -> Iterator[KeyValue]:
     yield KeyValue("tests", str(len(plan.tests)), "", "in the plan")
     yield KeyValue("time", f"{plan.minutes:.0f}", "min", "set-up and runs")
     yield KeyValue("rank", f"{plan.rank} of {plan.highest_rank}", "", "combinations determined")
+    if plan.asked:
+        yield from (_value(p) for p in [p for p in plan.parameters if p.name in plan.asked][:_MOST_VALUES])
+        return
     yield KeyValue("supported", f"{100 * plan.supported:.0f}", "%", "of the workspace")
     if worst is not None:
         unit = display_unit(PER_NEWTON, 2 * worst)
         yield KeyValue("U", significant(2 * worst * unit.factor), unit.name, "of the compliance at the tool, at worst")
+
+
+def _value(p: Expectation) -> KeyValue:
+    """What will be known of a parameter that was asked for."""
+    if p.known != ALONE or p.standard_uncertainty is None:
+        return KeyValue(p.name, _WORDS[p.known], "", p.meaning)
+    unit = display_unit(p.unit, 2 * p.standard_uncertainty)
+    return KeyValue(p.name, f"U = {significant(2 * p.standard_uncertainty * unit.factor)}", unit.name, p.meaning)
 
 
 def _head(plan: Plan) -> Iterator[tuple[str, str]]:
