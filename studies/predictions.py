@@ -1,11 +1,12 @@
-"""How often the intervals of a prediction hold the truth: `python -m studies.predictions [TRIALS] [FIRST]`.
+"""How often the intervals of a prediction hold the truth: `python -m studies.predictions [TRIALS] [FIRST] [five]`.
 
 Random machines of three axes with links and springs of their own; eight loaded circles each, two forces, two runs, some sets
-of which tell everything and some do not. Every run has noise of its own that runs along the trace (harmonics of random size
-and phase), a centre of its own and a force of its own; one gauge, 1 % uncertain, measures the force of all. Joints are
-asked with reciprocity, and without. Asked for at random places: elements of the compliance at the tool, along random
-directions, the softest direction, K_t, the difference of two places. Counted is what is supported; what is
-not must have no number, and by the prior it must hold as often, where the truth is drawn from the prior.
+of which tell everything and some do not. With `five`, machines of five axes and sixteen circles with the rotary axes turned.
+Every run has noise of its own that runs along the trace (harmonics of random size and phase), a centre and a force of its
+own; one gauge, 1 % uncertain, measures the force of all. Joints are asked with reciprocity, and without. Asked for at
+random places: elements of the compliance at the tool, along random directions, the softest direction, K_t, the difference of
+two places. Counted is what is supported; what is not must have no number, and by the prior it must hold as often, where the
+truth is drawn from the prior.
 """
 
 from __future__ import annotations
@@ -40,15 +41,19 @@ TELLING = np.array(
 )
 """Places of the circles that tell everything; others are drawn."""
 TOPOLOGIES = ("wYXFZt", "wFYXZt", "wXFYZt")
+FIVE = ("wCAFYXZt", "wCAYFXZt", "wCFXYZBt")
+CIRCLES, TURNED = 16, 0.6
+"""Of machines of five axes: how many circles, and how far [rad] the rotary axes are turned."""
 SCALE, ALONG_TRACE = 0.01, 2e-4
 DRAWN = 0.2
 """Share of the campaigns whose circles are where they happen to be."""
 NOISE = Imperfection(noise=1e-4, eccentricity=2e-3, force_scatter=0.002)
 
 
-def machine_of(random: np.random.Generator) -> Machine:
+def machine_of(random: np.random.Generator, five: bool = False) -> Machine:
     """A machine with links of random lengths."""
-    topology = parse_topology(TOPOLOGIES[int(random.integers(len(TOPOLOGIES)))])
+    named = FIVE if five else TOPOLOGIES
+    topology = parse_topology(named[int(random.integers(len(named)))])
     joints = tuple(Joint(axis, offset=tuple(random.uniform(-200.0, 200.0, 3))) for axis in topology.axes)
     return Machine("random", topology, joints, tool=(0.0, 0.0, float(random.uniform(-300.0, -100.0))))
 
@@ -74,17 +79,23 @@ def drawn_by_prior(machine: Machine, reciprocal: bool, random: np.random.Generat
     return found
 
 
-def campaign_of(machine: Machine, reciprocal: bool, truth: dict[str, float], random: np.random.Generator) -> Campaign:
-    """Eight circles of that machine, read by a gauge that is off."""
+def campaign_of(
+    machine: Machine, reciprocal: bool, truth: dict[str, float], random: np.random.Generator, drawn: float = DRAWN
+) -> Campaign:
+    """Eight circles of that machine, read by a gauge that is off; with a probability `drawn` where they happen to be."""
     angle = 2 * np.pi * np.arange(READINGS) / READINGS
     gauge = (KnownInfluence("force-scale", "gauge", relative=SCALE),)
     off = 1.0 + SCALE * float(random.normal())
     acted = {name: value * off for name, value in truth.items()}
     tests, places = {}, TELLING * random.choice([-1.0, 1.0], 3)
-    if random.random() < DRAWN:
+    rotary, planes = [joint.name for joint in machine.joints if joint.is_rotary], PLANES
+    if rotary:
+        places, planes = random.uniform(-1.0, 1.0, (CIRCLES, 3)), (PLANES * 2)[:CIRCLES]
+    elif random.random() < drawn:
         places = random.choice([-1.0, 0.0, 1.0], places.shape)
-    for k, (plane, place) in enumerate(zip(PLANES, 250.0 * places, strict=True)):
+    for k, (plane, place) in enumerate(zip(planes, 250.0 * places, strict=True)):
         centre = dict(zip("XYZ", map(float, place), strict=True))
+        centre |= {axis: float(random.uniform(-TURNED, TURNED)) for axis in rotary}
         runs = tuple(
             Run(f"{force:g} N, {n}", {"angle": angle, "radial": np.zeros(READINGS)}, force=force, repeat=n)
             for force in FORCES
@@ -126,15 +137,16 @@ def compliance_of(machine: Machine, truth: dict[str, float], commands: Array) ->
     return np.asarray((C + C.T) / 2)
 
 
-def trial(seed: int) -> Counter[str]:
+def trial(seed: int, five: bool = False) -> Counter[str]:
     """What holds, what there is: `held X`, `asked X` for every kind X; `numbers` where there must be none."""
     random = np.random.default_rng([seed, 5])
-    machine, reciprocal = machine_of(random), bool(random.integers(2))
+    machine, reciprocal = machine_of(random, five), bool(random.integers(2))
     as_springs = bool(random.integers(2))
     truth = springs_of(machine, random) if as_springs else drawn_by_prior(machine, reciprocal, random)
     known = known_of(campaign_of(machine, reciprocal, truth, random))
     counts: Counter[str] = Counter()
-    places = random.uniform(-250.0, 250.0, (3, len(machine.axes)))
+    most = np.array([TURNED if joint.is_rotary else 250.0 for joint in machine.joints])
+    places = most * random.uniform(-1.0, 1.0, (3, len(machine.axes)))
     true = [compliance_of(machine, truth, place) for place in places]
     names = "reciprocal" if reciprocal else "free"
     for kind, functional, value in _asked(known, places, true, random):
@@ -196,7 +208,7 @@ def main() -> None:
     first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
     counts: Counter[str] = Counter()
     for seed in range(first, first + trials):
-        counts += trial(seed)
+        counts += trial(seed, "five" in sys.argv)
     kinds = sorted(key.removeprefix("asked ") for key in counts if key.startswith("asked "))
     for kind in kinds:
         asked, held = counts[f"asked {kind}"], counts[f"held {kind}"]

@@ -80,6 +80,20 @@ def test_the_report_has_its_pictures(folder: Path, tmp_path: Path) -> None:
     }
 
 
+def test_what_is_not_told_is_hatched_and_null_in_every_file(folder: Path, tmp_path: Path) -> None:
+    """Beside the plane of the circle nothing is told of Z: the files are written all the same."""
+    grid = ["--along", "X_mm=-100:100:3", "--along", "Y_mm=-100:100:3", "--at", "Z_mm=100", "-p", "C_???", "-p", "E_??1"]
+    code, _ = call(folder, *grid, "--direction", "Z", "--report", tmp_path / "none")
+    assert code == 1
+    document = json.loads((tmp_path / "none" / "report.json").read_text(encoding="utf-8"))
+    assert document["compliance_nm_per_N"] == document["expanded_nm_per_N"] == [[None] * 3] * 3
+    assert (tmp_path / "none" / "report.pdf").stat().st_size > 1000
+    code, text = call(folder, *grid, "--direction", "Z", "--prior", "--report", tmp_path / "prior")
+    assert code == 1
+    assert "Where the tests do not tell, values rest on a prior" in text
+    assert "pattern" in (tmp_path / "prior" / "slices.svg").read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize(
     ("wrong", "why"),
     [

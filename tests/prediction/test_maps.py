@@ -96,6 +96,11 @@ def test_where_no_test_tells_there_is_no_number() -> None:
     assert (by_prior.supported == found.supported).all()
     assert np.isfinite(by_prior.expanded).all()
     assert (by_prior.prior_share[~found.supported] > 0.5).all()
+    accepted_by = map_compliance(
+        asked, {"X": (0.0, 400.0, 3), "Y": (0.0, 400.0, 3)}, {"Z": 0.0}, direction="X", prior=True, least_stiffness=1.0
+    )
+    assert accepted_by.acceptance is not None
+    assert accepted_by.acceptance.undecided == int((~found.supported).sum())
     assert (by_prior.expanded[~found.supported] > found.expanded[0, 0]).all()
 
 

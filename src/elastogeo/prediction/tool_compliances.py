@@ -255,8 +255,10 @@ def _inverse(known: Array, estimate: Linear) -> tuple[Array, Array]:
     blocks = (block for block in (range(6), range(3)) if np.isfinite(known[np.ix_(block, block)]).all())
     block = np.ix_(*([next(blocks, range(0))] * 2))
     C = known[block]
-    scale = np.sqrt(np.abs(np.diag(C)))
-    if not len(C) or np.linalg.eigvalsh(C / np.outer(scale, scale))[0] < _GIVES_WAY:
+    if not len(C) or not (np.diag(C) > 0).all():
+        return stiffness, half
+    scale = np.sqrt(np.diag(C))
+    if np.linalg.eigvalsh(C / np.outer(scale, scale))[0] < _GIVES_WAY:
         return stiffness, half
     K = np.linalg.inv(C)
     stiffness[block] = K

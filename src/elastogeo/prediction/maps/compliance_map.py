@@ -90,7 +90,8 @@ def map_compliance(
     way, point = _direction(direction), _tool(campaign, tool)
     found = field_over(known, places, point, way, prior)
     compliance, expanded = found.predicted.value, found.predicted.expanded
-    decision = None if least_stiffness is None else accepted(compliance, expanded, least_stiffness)
+    told = np.where(found.predicted.supported, compliance, np.nan)  # a prior accepts no machine
+    decision = None if least_stiffness is None else accepted(told, expanded, least_stiffness)
     stiffest, softest = _extremes(known, places, point, found, prior)
     compared = None if design is None else _compared(known, places, point, found, design)
     shape, predicted = places.shape, found.predicted

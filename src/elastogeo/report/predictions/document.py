@@ -102,12 +102,16 @@ def rows_of(found: ComplianceMap) -> list[dict[str, Any]]:
     return [
         {
             **{axis: float(one[k]) for axis, one, k in zip(found.grid.axes, along, index, strict=True)},
-            "compliance": float(compliance[index]),
-            "expanded": float(expanded[index]),
+            "compliance": _or_none(compliance[index]),
+            "expanded": _or_none(expanded[index]),
             "supported": bool(supported[index]),
         }
         for index in np.ndindex(compliance.shape)
     ]
+
+
+def _or_none(value: Any) -> float | None:
+    return float(value) if np.isfinite(value) else None
 
 
 def _place(found: ComplianceMap, place: Place | None) -> dict[str, Any] | None:

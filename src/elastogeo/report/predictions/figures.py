@@ -80,15 +80,19 @@ def _coloured(found: ComplianceMap, values: Array, label: str, marked: bool) -> 
 
 
 def _slice(ax: Axes, found: ComplianceMap, values: Array, scale: Normalize, plane: Plane) -> None:
-    """One slice in colour, hatched where there is no value."""
+    """One slice in colour, hatched where the tests do not tell: no value, or one that rests on a prior."""
     first, second, across, layer = plane
-    cut = values if across is None else np.moveaxis(values, (first, second, across), (0, 1, 2))[:, :, layer]
+    shown = np.where(found.supported, values, np.nan)
+    cut, told = (
+        one if across is None else np.moveaxis(one, (first, second, across), (0, 1, 2))[:, :, layer]
+        for one in (values, shown)
+    )
     along, up = found.grid.along[first], found.grid.along[second]
     known = np.ma.masked_invalid(cut.T)
     ax.set_facecolor("#eeeeee")
     ax.pcolormesh(along, up, known, cmap=_SOFT, norm=scale, shading="nearest", rasterized=True)
-    if not np.isfinite(cut).all():
-        missing = np.repeat(np.repeat(~np.isfinite(cut.T), 2, axis=0), 2, axis=1).astype(float)
+    if not np.isfinite(told).all():
+        missing = np.repeat(np.repeat(~np.isfinite(told.T), 2, axis=0), 2, axis=1).astype(float)
         edges = [_edges(one) for one in (along, up)]
         ax.contourf(*edges, missing, levels=[0.5, 1.5], colors="none", hatches=["////"])
     ax.set_aspect("equal")
