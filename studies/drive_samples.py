@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 from elastogeo.drive import TorqueModel
 from elastogeo.identification.feed_drives import identify_drives
@@ -26,7 +26,6 @@ class Identified:
     held_out : tuple of str
     """
 
-    share: ClassVar[float] = 0.35
     records: Dwells | Sines
     compare: bool = False
     least_speed: float | None = None

@@ -33,7 +33,7 @@ def confounding_words(found: Confounding) -> list[str]:
     """What the test can and cannot tell apart, in sentences."""
     asked = len(found.labels)
     if found.rank == asked:
-        return [f"Every one of the {asked} parameters that were asked for is told apart from all others."]
+        return [f"Every one of the {asked} parameters that were asked for is distinguished from all others."]
     words = [f"{asked} parameters were asked for; the readings determine {found.rank} combinations of them, no more."]
     if found.null:
         verb = "changes" if len(found.null) == 1 else "change"
@@ -42,7 +42,7 @@ def confounding_words(found: Confounding) -> list[str]:
     if groups:
         words.append(
             "Parameters in one of the groups below always produce the same trace but for its size. No amount of readings of "
-            "this test tells them apart; what is estimated is the sum that is given below."
+            "this test distinguishes them; what is estimated is the sum that is given below."
         )
     if asked - len(found.null) - sum(len(group) - 1 for group in groups) > found.rank:
         words.append(
@@ -58,7 +58,7 @@ def banner(result: Identification) -> list[str]:
     if all_separated(result):
         return []
     return [
-        "Compliance and geometry are not told apart. At the forces of this test a soft machine and a crooked one make the "
+        "Compliance and geometry are not distinguished. At the forces of this test a soft machine and a crooked one make the "
         "same trace. What is given below under a sum belongs to the sum: no member of it may be named the cause, and none "
         "may be corrected on the ground of this test.",
         "What to do: repeat the test at a second, clearly different force, and ask again. "
@@ -67,18 +67,18 @@ def banner(result: Identification) -> list[str]:
 
 
 def uncertainty_words(result: Identification) -> list[str]:
-    """What the uncertainties count on, and what is in them."""
+    """What the uncertainties assume, and what is in them."""
     if result.by_run:
         ratios = result.solution.standard_uncertainty / result.naive.standard_uncertainty
         words = [
             f"The uncertainties come from the scatter of {len(result.traces)} runs, each of which counts once, however many "
             f"readings it has. They are {significant(float(ratios.min()), 2)} to {significant(float(ratios.max()), 2)} "
-            f"times those that would count on independent readings: the errors along one trace belong together, and what "
-            f"every run leaves over alike does not scatter."
+            f"times those that would assume independent readings: the errors along one trace are correlated, and any part "
+            f"common to all runs does not scatter."
         ]
     else:
         checked = next((sentence_of(check) for check in result.verdict if check.name == "uncertainty by run"), None)
-        words = [micro(checked or "The uncertainties count on independent readings; those along a trace rarely are.")]
+        words = [micro(checked or "The uncertainties assume independent readings; those along a trace rarely are.")]
     stated = influences(result)
     if stated:
         return [*words, f"The budget also holds what the test's file states as known: {listed(stated)}."]
@@ -100,7 +100,7 @@ def change_words(result: Identification) -> list[str]:
     change = result.local_change
     if change is None:
         why = (
-            "a reference level is taken off"
+            "a reference level is subtracted"
             if result.reference_force is not None
             else "it takes three force levels and runs that leave something over"
         )
