@@ -59,8 +59,8 @@ def banner(result: Identification) -> list[str]:
         return []
     return [
         "Compliance and geometry are not distinguished. At the forces of this test a soft machine and a crooked one make "
-        "the same trace. What is given below under a sum belongs to the sum: no member of it may be named the cause, and none "
-        "may be corrected on the ground of this test.",
+        "the same trace. What is given below under a sum belongs to the sum: no member of it may be named the cause, and "
+        "none may be corrected on the ground of this test.",
         "What to do: repeat the test at a second, clearly different force, and ask again. "
         "(Coefficients are for mm, N and rad.)",
     ]
