@@ -36,10 +36,11 @@ def compensate(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Write the compensation files of a control, or a corrected program, and say what is left after them.
+    """Write compensation tables or a corrected program.
 
-    Of positioning tests the means by target are written; of other tests, or with --parameter, the parameters that they
-    determine together. Only what is greater than its uncertainty is written; the rest is named.
+    It says what is left after them. Of positioning tests the means by target are written; of other tests, or with
+    --parameter, the parameters that they determine together. Only what is greater than its uncertainty is written; the
+    rest is named.
 
     \b
     Examples:
