@@ -227,9 +227,14 @@ class Case:
 
     def _rolled(self, setup: Setup, forces: Sequence[float]) -> MachineTest:
         """What a ball-roller records on a rigid machine: its force is measured, so there is no blank run of it."""
-        angle = np.linspace(0, 2.06 * np.pi, 700)
-        runs = tuple(Run(f"{force:g} N", {"angle": angle}, engagement=force / 15e3) for force in forces)
-        return simulate(MachineTest(str(self), self.arrangement.machine, setup, runs, Question(("C_*",))), {"C_XXX": 0.0})
+        return simulate(unrecorded(self.arrangement, setup, forces), {"C_XXX": 0.0})
+
+
+def unrecorded(arrangement: Arrangement, setup: Setup, forces: Sequence[float]) -> MachineTest:
+    """A ball-roller test that is yet to be simulated."""
+    angle = np.linspace(0, 2.06 * np.pi, 700)
+    runs = tuple(Run(f"{force:g} N", {"angle": angle}, engagement=force / 15e3) for force in forces)
+    return MachineTest(f"ball-roller-{arrangement}", arrangement.machine, setup, runs, Question(("C_*",)))
 
 
 def blank(setup: Setup, pose: Array, force: float) -> dict[str, Array]:
@@ -293,6 +298,14 @@ def typical(request: pytest.FixtureRequest) -> Case:
 def case_of() -> Callable[[str], Case]:
     """The ball bar's case in an arrangement, by its name."""
     return lambda name: next(c for c in CASES if c.instrument == "loaded-ball-bar" and str(c.arrangement) == name)
+
+
+@pytest.fixture(scope="session", params=PRESSED[:2], ids=str)
+def pressed(request: pytest.FixtureRequest) -> tuple[Campaign, MachineTest]:
+    """A static force and a loaded bar in one arrangement, blank; and a ball-roller there."""
+    names = ("loaded-ball-bar", "static-force")
+    tests = {name: Case(name, request.param).test(readings=24) for name in names}
+    return Campaign(str(request.param), tests), unrecorded(request.param, ball_roller(request.param), (112.0, 490.0))
 
 
 @pytest.fixture(scope="session", params=ARRANGEMENTS, ids=str)
