@@ -77,6 +77,7 @@ def test_the_report_has_its_pictures(folder: Path, tmp_path: Path) -> None:
         "report.pdf",
         "slices.svg",
         "uncertainty.svg",
+        "volume.html",
     }
 
 

@@ -1,7 +1,7 @@
 """A result becomes a view (sentences, key values, tables, figures, JSON), any view a page, a PDF, files.
 
 It computes nothing new. Stands on `identification` and all rooms below. One wing for each kind of result; `page` renders
-any view; `drawing` is the ground of all figures. matplotlib, jinja2 and typst (the extra `elastogeo[report]`) are imported
+any view; `drawing` is the ground of all figures. matplotlib, jinja2, typst and plotly (`elastogeo[report]`) are imported
 only when something is drawn or a page is written.
 """
 

@@ -99,6 +99,29 @@ class Picture:
 
 
 @dataclass(frozen=True, slots=True)
+class Scene:
+    """A picture that can be turned, on a page of its own beside the report.
+
+    Attributes
+    ----------
+    name : str
+        Of its file.
+    title, caption : str
+    unknown : str
+        How it shows what is not known.
+    draw : callable
+        Gives `data` (traces of plotly.js, of each the `choice` it belongs to, None for all), `layout`, `choices` (the
+        menu) and `note`: plain types, every number that is shown already a string.
+    """
+
+    name: str
+    title: str
+    caption: str
+    unknown: str
+    draw: Callable[[], dict[str, Any]] = field(compare=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Section:
     """A part of the page below the first screen: a heading, paragraphs, pictures, tables, in this order."""
 
@@ -138,6 +161,8 @@ class View:
         What the terminal says below the tables.
     sections : tuple of Section
         All else, folded on the page.
+    scene : Scene or None
+        A picture that can be turned, for a page of its own.
     document : mapping
         As JSON: plain types, nothing rounded.
     rows : sequence of mapping
@@ -159,6 +184,7 @@ class View:
     tables: tuple[Table, ...] = ()
     notes: tuple[str, ...] = ()
     sections: tuple[Section, ...] = ()
+    scene: Scene | None = None
 
     @property
     def attention(self) -> tuple[Said, ...]:

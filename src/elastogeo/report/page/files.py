@@ -9,11 +9,14 @@ from elastogeo.formats import write_whole
 from elastogeo.report.drawing.svg import drawn
 from elastogeo.report.page.html import html_page
 from elastogeo.report.page.pdf import pdf_page
+from elastogeo.report.page.scene import scene_page
 from elastogeo.report.view import View
 
 
 def save_report(view: View, folder: str | Path) -> Path:
-    """Write the report of a view: `report.html`, `report.pdf`, `report.json`, and each figure as SVG.
+    """Write the report of a view: `report.html`, `report.pdf`, `report.json`, each figure as SVG, and a scene as its page.
+
+    Without plotly the page of a scene is not written; the report says so.
 
     Parameters
     ----------
@@ -35,11 +38,14 @@ def save_report(view: View, folder: str | Path) -> Path:
     """
     folder = Path(folder)
     figures = {name: drawn(picture) for name, picture in view.pictures.items()}
+    turned = scene_page(view)
     written = {
         **{f"{name}.svg": data for name, data in figures.items()},
         "report.json": json.dumps(view.document, indent=2, allow_nan=False, ensure_ascii=False).encode(),
         "report.pdf": pdf_page(view, figures),
-        "report.html": html_page(view, figures).encode(),
+        "report.html": html_page(view, figures, scene_written=turned is not None).encode(),
     }
+    if view.scene is not None and turned is not None:
+        written[f"{view.scene.name}.html"] = turned.encode()
     write_whole({folder / name: data for name, data in written.items()})
     return folder / "report.html"

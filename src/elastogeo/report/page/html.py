@@ -10,7 +10,7 @@ from elastogeo.report.view import View
 from elastogeo.version import VERSION
 
 
-def html_page(view: View, figures: Mapping[str, bytes] | None = None) -> str:
+def html_page(view: View, figures: Mapping[str, bytes] | None = None, scene_written: bool | None = None) -> str:
     """A view as one HTML page.
 
     Parameters
@@ -18,6 +18,8 @@ def html_page(view: View, figures: Mapping[str, bytes] | None = None) -> str:
     view : View
     figures : mapping of str to bytes, optional
         Its pictures as SVG files, if they have been drawn already.
+    scene_written : bool, optional
+        Whether the page of its scene lies beside it; without, nothing is said of that page.
 
     Returns
     -------
@@ -41,4 +43,6 @@ def html_page(view: View, figures: Mapping[str, bytes] | None = None) -> str:
     )
     files = {name: drawn(picture) for name, picture in view.pictures.items()} if figures is None else figures
     elements = {name: Markup(inline(files[name], picture)) for name, picture in view.pictures.items()}
-    return environment.get_template("page.html.j2").render(view=view, figures=elements, version=VERSION)
+    return environment.get_template("page.html.j2").render(
+        view=view, figures=elements, version=VERSION, scene_written=scene_written
+    )

@@ -78,10 +78,10 @@ def map_json(found: ComplianceMap) -> dict[str, Any]:
     )
 
 
-def thinned(found: ComplianceMap) -> tuple[int, ...]:
-    """Of which step along each axis the document holds the places: 1 unless there are too many."""
+def thinned(found: ComplianceMap, most: int = MOST_PLACES) -> tuple[int, ...]:
+    """At which step along each axis places are shown: 1 unless there are more than `most`."""
     every = [1] * len(found.grid.shape)
-    while _count(found.grid.shape, every) > MOST_PLACES:
+    while _count(found.grid.shape, every) > most:
         widest = max(range(len(every)), key=lambda k: -(-found.grid.shape[k] // every[k]))
         every[widest] += 1
     return tuple(every)

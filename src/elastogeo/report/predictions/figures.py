@@ -14,10 +14,11 @@ from elastogeo.machine import Array
 from elastogeo.prediction import ComplianceMap, Place
 from elastogeo.report.drawing.style import BLUE, FAINT, GREY, INK, ORANGE, SMALL, new_figure
 from elastogeo.report.predictions.document import NM
+from elastogeo.report.predictions.volume import SOFT
 
 Plane = tuple[int, int, int | None, int]
 """Which axes of the grid go right, up and across the slices, and which slice it is."""
-_SOFT = LinearSegmentedColormap.from_list("soft", ["#f7fbff", "#a6dbe8", "#56a9d6", "#4878b8", "#6c5aa8", "#a0468f"])
+_SOFT = LinearSegmentedColormap.from_list("soft", SOFT)
 _SLICES = 3
 _ELLIPSOID = 0.16
 """Greatest semi-axis of an ellipsoid, of the size of the volume."""

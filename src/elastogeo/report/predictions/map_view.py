@@ -15,6 +15,7 @@ from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.head import campaign_head, files_section, origin
 from elastogeo.report.numbers import UNKNOWN, pretty, said_estimate, significant
 from elastogeo.report.predictions.document import NM, map_json, rows_of
+from elastogeo.report.predictions.volume import volume_scene
 from elastogeo.report.text import combination, shared_units
 from elastogeo.report.view import KeyValue, Picture, Section, Table, View, attention_sentence, said, views
 
@@ -49,6 +50,7 @@ def map_view(found: ComplianceMap) -> View:
         tables=tuple(_tables(found)),
         notes=tuple(_notes(found)),
         sections=tuple(_sections(found)),
+        scene=volume_scene(found),
     )
 
 
