@@ -87,7 +87,7 @@ def test_a_program_is_moved_and_written(tmp_path: Path) -> None:
     for words in (
         "Compensated path",
         "The deviation along x and y falls from",
-        "Not made good",
+        "Not compensated",
         "no parameter was asked for",
     ):
         assert words in text

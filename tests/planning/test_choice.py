@@ -8,7 +8,8 @@ import pytest
 import elastogeo as eg
 from elastogeo.machine import Joint, Machine
 from elastogeo.planning import Means, ReadingNoise, unknowns, whitened
-from elastogeo.prediction import TYPICAL_COMPLIANCE, TYPICAL_LEVER, compliance_scales
+from elastogeo.prediction import parameter_scales
+from elastogeo.sources import Source
 from studies.plans import Judge, best_of_random, exhaustive_information, hermle, judge, three_axes
 
 GOALS = ("information", "parameters", "workspace")
@@ -88,14 +89,19 @@ def in_other_units(machine: Machine, length: float) -> Machine:
     return replace(machine, joints=joints, tool=point(machine.tool))
 
 
+def turns(source: Source) -> int:
+    """How many of displacement and load are a rotation and a moment: lengths that the unit of a compliance is divided by."""
+    return (source.component >= 3) + ((source.load or 0) >= 3)
+
+
 @pytest.mark.parametrize("length", [1e-1, 1e2])
 def test_the_plan_is_the_same_in_any_unit_of_length(length: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """Lengths in centimetres, or hundredths of a millimetre; forces in other units come with the compliances."""
     plain = Means(three_axes(), readings=12)
     before = eg.plan(plain, tests=4, count=30)
     monkeypatch.setattr(
-        "elastogeo.planning.information.compliance_scales",
-        lambda sources: compliance_scales(sources, TYPICAL_COMPLIANCE * length, TYPICAL_LEVER * length),
+        "elastogeo.planning.information.parameter_scales",
+        lambda sources: parameter_scales(sources) * [length ** (1 - turns(source)) for source in sources],
     )
     means = Means(
         in_other_units(three_axes(), length),

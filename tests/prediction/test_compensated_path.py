@@ -105,7 +105,7 @@ def test_the_error_falls_as_predicted(result, program, cut):
 
 
 def test_a_milled_contour_is_nearer_with_the_force_of_a_milling_model_and_a_tool_that_bends(result, tmp_path):
-    """Force of a four-fluted cutter in Al7075-T6, a stepped tool: geometry, compliance and tool are made good together."""
+    """Force of a four-fluted cutter in Al7075-T6, a stepped tool: geometry, compliance and tool are compensated together."""
     (tmp_path / "cut.toml").write_text(MILLING, encoding="ascii")
     cut = eg.read_cut(tmp_path / "cut.toml")
     found = eg.compensate_path(result, contour(), cut)

@@ -26,7 +26,7 @@ def compensated(error=screw, zero_at=None, control="linuxcnc", settings=None, **
 
 
 def true_residual(found, error, name="E_XX"):
-    """What is truly left at the targets, shape (k, 2): the true error from its zero, less what the control makes good."""
+    """What is truly left at the targets, shape (k, 2): the true error from its zero, less what the control compensates."""
     one = found[name]
     zero = np.array([one.found.zero_at])
     at_zero = (error(zero, np.ones(1)) + error(zero, -np.ones(1)))[0] / 2
@@ -116,7 +116,7 @@ def test_one_direction_shows_no_backlash_and_one_cycle_no_uncertainty():
     once = compensated(cycles=1)
     assert once.files == {}
     assert {out.reason for out in once.left_out} == {"no interval"}
-    assert checks(once)["something to make good"] is False
+    assert checks(once)["something to compensate"] is False
     with pytest.raises(UnsupportedError, match="there is nothing to write: no error was found that is greater"):
         once.write("anywhere")
 
@@ -154,7 +154,7 @@ def test_two_axes_go_into_one_compensation_and_one_error_twice_is_refused():
     both = [eg.evaluate_positioning(axis_test(screw, axis=axis)) for axis in "XY"]
     found = eg.compensate(*both)
     assert set(found.files) == {"x.comp", "y.comp", "joints.ini"}
-    with pytest.raises(InputError, match="two results are of E_XX; give the one that is to be made good"):
+    with pytest.raises(InputError, match="two results are of E_XX; give the one that is to be compensated"):
         eg.compensate(both[0], both[0])
     with pytest.raises(InputError, match="there is nothing to compensate; give one result or more"):
         eg.compensate()

@@ -16,7 +16,7 @@ from numpy.testing import assert_allclose
 
 from elastogeo.machine import Array, Machine, loop_frames
 from elastogeo.observe import Observations
-from elastogeo.prediction import compliance_scales, functionals, virtual_observations
+from elastogeo.prediction import functionals, parameter_scales, virtual_observations
 from elastogeo.sources import Source, exact_response, select_sources
 from tests.conftest import build_machine
 from tests.machine.pinocchio_loop import TOPOLOGIES, pinocchio_jacobian
@@ -35,7 +35,7 @@ def skew_machine(topology: str) -> tuple[Machine, Array, list[Source], Array]:
     scale = np.array([2.0 if joint.is_rotary else 400.0 for joint in machine.joints])
     commands = random.uniform(-1, 1, (POSES, len(machine.axes))) * scale
     sources = select_sources(machine, ["C_???"])
-    return machine, commands, sources, random.normal(size=len(sources)) * compliance_scales(sources)
+    return machine, commands, sources, random.normal(size=len(sources)) * parameter_scales(sources)
 
 
 def entries_observed(machine: Machine, commands: Array, sign: float = 1.0) -> Observations:

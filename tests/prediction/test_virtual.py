@@ -5,7 +5,7 @@ import pytest
 
 from elastogeo.formats import read_machine
 from elastogeo.machine import jacobian
-from elastogeo.prediction import compliance_scales, functionals, unsupported_share, virtual_observations
+from elastogeo.prediction import functionals, parameter_scales, unsupported_share, virtual_observations
 from elastogeo.sources import select_sources
 
 
@@ -30,7 +30,7 @@ def test_unit_loads_give_the_compliance_at_the_tool(name: str) -> None:
 
 def test_scales_are_in_the_units_of_the_parameters() -> None:
     machine = read_machine("hermle_c50")
-    scales = compliance_scales(select_sources(machine, ["C_XXX", "C_CXX", "C_CCX"]))
+    scales = parameter_scales(select_sources(machine, ["C_XXX", "C_CXX", "C_CCX"]))
     assert sorted(scales, reverse=True) == pytest.approx([5e-6, 5e-6 / 300, 5e-6 / 300**2])
 
 

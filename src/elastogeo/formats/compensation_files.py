@@ -203,7 +203,7 @@ def compensation_text(
 
 
 def read_compensation(path: str | Path, settings: Mapping[str, str] | None = None) -> tuple[ErrorTable, ...]:
-    """The errors that a compensation file of a control makes good, actual less nominal; the control is told by content.
+    """The errors that a compensation file of a control compensates, actual less nominal; the control is told by content.
 
     Parameters
     ----------

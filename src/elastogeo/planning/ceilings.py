@@ -24,7 +24,7 @@ from elastogeo.estimate import RANK_TOLERANCE
 from elastogeo.identification import reciprocal_sources
 from elastogeo.machine import Array, Frame, LoopFrames, Machine, Site, loop_frames
 from elastogeo.planning.invariants import generator, invariants, twist_map
-from elastogeo.prediction import compliance_scales
+from elastogeo.prediction import parameter_scales
 from elastogeo.sources import Source, select_sources
 
 DEPENDENT = 1e-9
@@ -80,7 +80,7 @@ class Ceiling(ByValue):
     @property
     def scales(self) -> Array:
         """The size that each is expected to have, shape (p,), in its unit: what a direction is small against."""
-        return compliance_scales(self.sources)
+        return parameter_scales(self.sources)
 
     @property
     def columns(self) -> int:
@@ -219,7 +219,7 @@ class _Loop:
         for k, source in enumerate(self.sources):
             if source.site == site:
                 rows[:, k] = tensors[:, source.component, source.load or 0]
-        scaled = rows / compliance_scales(self.sources)  # an entry of 1e-9 of the greatest is rounding error
+        scaled = rows / parameter_scales(self.sources)  # an entry of 1e-9 of the greatest is rounding error
         rows[np.abs(scaled) < DEPENDENT * np.abs(scaled).max(axis=1, keepdims=True, initial=0.0)] = 0.0
         return rows
 

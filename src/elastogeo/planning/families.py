@@ -19,7 +19,7 @@ from elastogeo.identification import reciprocal_sources
 from elastogeo.machine import Array, Machine, Point
 from elastogeo.observe import BAR, PROBES, SIX
 from elastogeo.planning.ceilings import compliances_of
-from elastogeo.prediction import compliance_scales, functionals, virtual_observations
+from elastogeo.prediction import functionals, parameter_scales, virtual_observations
 
 SEEN = 1e-9
 """Relative tolerance of the rank. Every machine looked at has ten orders between what counts and what does not."""
@@ -39,7 +39,7 @@ class FamilyCeiling(ByValue):
     labels : tuple of str
         The p compliances.
     seen : array, shape (p, r)
-        Orthonormal basis of what is seen, in scaled parameters (`prediction.compliance_scales`).
+        Orthonormal basis of what is seen, in scaled parameters (`prediction.parameter_scales`).
     gap : float
         The last singular value that counts over the first that does not; infinite where none is left.
     """
@@ -110,7 +110,7 @@ def family_ceiling(
     tools = list(tools) or [machine.tool]
     poses = max(_AT_LEAST, 2 * len(sources) // (len(loads) * len(tools)) + 1)
     random = np.random.default_rng(seed)
-    scales = compliance_scales(sources)
+    scales = parameter_scales(sources)
     blocks = []
     for tool in tools:
         commands = np.repeat(_poses(machine, held or {}, poses, random), len(loads), axis=0)

@@ -22,7 +22,7 @@ from elastogeo.machine import Array, Machine
 from elastogeo.observe import MachineTest, Observations
 from elastogeo.planning.made import at_the_same_poses
 from elastogeo.planning.noise import ReadingNoise
-from elastogeo.prediction import compliance_scales
+from elastogeo.prediction import parameter_scales
 from elastogeo.sources import Source, design_rows, select_sources
 
 SAME_POSE = 1e-6
@@ -78,7 +78,7 @@ def unknowns(machine: Machine, reciprocal: bool = False, scales: Mapping[str, fl
     """
     sources = select_sources(machine, ("C_*", "CL_*") if machine.places else ("C_*",))
     sources = reciprocal_sources(sources) if reciprocal else sources
-    sizes = compliance_scales(sources)
+    sizes = parameter_scales(sources)
     for k, source in enumerate(sources):
         sizes[k] = (scales or {}).get(source.name, sizes[k])
     return Unknowns(machine, sources, sizes)

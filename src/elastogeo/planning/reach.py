@@ -11,7 +11,7 @@ from elastogeo.identification import Explanation
 from elastogeo.machine import Array
 from elastogeo.planning.ceilings import ceiling
 from elastogeo.planning.families import family_ceiling
-from elastogeo.prediction import compliance_scales
+from elastogeo.prediction import parameter_scales
 from elastogeo.sources import Source
 
 
@@ -59,7 +59,7 @@ def _rank_of(found: Confounding, sources: list[Source]) -> int:
     """Rank of some columns of the design, which are those of the retained ones times their combinations."""
     if len(sources) == len(found.labels):
         return found.rank
-    part = found.combinations[:, [found.labels.index(source.name) for source in sources]] * compliance_scales(sources)
+    part = found.combinations[:, [found.labels.index(source.name) for source in sources]] * parameter_scales(sources)
     return _rank(part[part.any(axis=1)])
 
 

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
         predict,
         simulated_points,
     )
-    from elastogeo.prediction.scales import TYPICAL_COMPLIANCE, TYPICAL_LEVER, compliance_scales, parameter_scales
+    from elastogeo.prediction.scales import TYPICAL_COMPLIANCE, TYPICAL_LEVER, parameter_scales
     from elastogeo.prediction.support import SUPPORTED, unsupported_share
     from elastogeo.prediction.tool_compliances import (
         ToolCompliance,
@@ -84,7 +84,6 @@ __all__ = [
     "compensate",
     "compensate_path",
     "compliance_along",
-    "compliance_scales",
     "deviations",
     "entry_rows",
     "functionals",
@@ -109,7 +108,7 @@ __getattr__ = first_use(
         "maps.verdict": "DESIGN FOUNDATION LIMIT NOTHING_LEFT_OUT SUPPORTED_EVERYWHERE UNCERTAINTY_KNOWN",
         "paths": "DEVIATION_COMPONENTS PARTS PartOfDeviation PathPrediction Piece PieceDeviation "
         "TOOL deviations known_deviation path_deviation predict simulated_points",
-        "scales": "TYPICAL_COMPLIANCE TYPICAL_LEVER compliance_scales parameter_scales",
+        "scales": "TYPICAL_COMPLIANCE TYPICAL_LEVER parameter_scales",
         "support": "SUPPORTED unsupported_share",
         "tool_compliances": "ToolCompliance collinear_stiffness_of compliance_along entry_rows tool_compliance",
         "virtual": "functionals virtual_observations",

@@ -38,26 +38,11 @@ _PER = {
 }
 
 
-def compliance_scales(sources: Sequence[Source], size: float = TYPICAL_COMPLIANCE, lever: float = TYPICAL_LEVER) -> Array:
-    """The scale of each compliance, shape (p,), in the parameter's own unit.
-
-    Parameters
-    ----------
-    sources : sequence of Source, length p
-        Compliances.
-    size : float [mm/N]
-        Of a translation for a force.
-    lever : float [mm]
-        A rotation is a translation over it, a moment a force times it.
-    """
-    rotary = np.array([(source.component >= 3) + ((source.load or 0) >= 3) for source in sources], dtype=float)
-    return np.asarray(size / lever**rotary)
-
-
 def parameter_scales(sources: Sequence[Source]) -> Array:
-    """The scale of each parameter of any kind, shape (p,), in its own unit: `compliance_scales` of compliances.
+    """The scale of each parameter of any kind, shape (p,), in its own unit.
 
-    What it gives is a deviation of 5 um, at 1000 N, over 300 mm or 1 rad, at 100 mm/s.
+    What it gives is a deviation of 5 um, at 1000 N, over 300 mm or 1 rad, at 100 mm/s: of a compliance 5 nm/N, where a
+    rotation is a translation over the lever and a moment a force times it.
     """
     return np.array([_size(source.unit) for source in sources])
 

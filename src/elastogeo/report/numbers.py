@@ -85,6 +85,8 @@ def value_with_uncertainty(value: float, uncertainty: float) -> str:
     '61.898 ± 0.031'
     >>> value_with_uncertainty(6.18983e-5, 3.14e-8)
     '(6.1898 ± 0.0031)e-05'
+    >>> value_with_uncertainty(-0.0001, 0.02)
+    '0.000 ± 0.020'
     """
     value, uncertainty = float(value), float(uncertainty)
     if not isfinite(value):
@@ -99,7 +101,7 @@ def value_with_uncertainty(value: float, uncertainty: float) -> str:
     power = 0 if _is_plain(largest) else floor(log10(largest))
     half = Decimal(f"{uncertainty:.1e}").scaleb(-power)
     place = Decimal(1).scaleb(int(half.as_tuple().exponent))
-    number = f"{Decimal(repr(value)).scaleb(-power).quantize(place):f} ± {half:f}"
+    number = f"{Decimal(repr(value)).scaleb(-power).quantize(place):zf} ± {half:f}"
     return f"({number})e{power:+03d}" if power else number
 
 

@@ -135,7 +135,7 @@ def can_read(head: bytes) -> bool:
 
 
 def read(data: bytes, source: str, settings: Settings) -> tuple[ErrorTable, ...]:
-    """The errors that the control makes good; its zero is the mean of both directions at the reference position."""
+    """The errors that the control compensates; its zero is the mean of both directions at the reference position."""
     if not (data.startswith(b"%\nN") and data.endswith(b"\n%\n")):
         raise FormatError(f"{source}: does not begin and end with % on lines of their own; it may be cut off, copy it again")
     parameters: dict[int, dict[int, int]] = {}

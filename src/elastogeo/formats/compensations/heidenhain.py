@@ -1,7 +1,7 @@
 """HEIDENHAIN axis error tables: a `.COM` table for each axis that causes errors, and the `.CMA` table that names them.
 
 In a `.COM` table AXISPOS is the position of the causing axis, from the machine datum; the column of an axis is what that
-axis is to make good there, and BACKLASH holds the values of the causing axis itself where it comes in its negative
+axis is to compensate there, and BACKLASH holds the values of the causing axis itself where it comes in its negative
 direction (its own column then those of the positive one). So `[axis of the column] = F(axis of the .CMA column)`. Evenly
 spaced points, at most 256, four decimals. Across, one value serves both directions: the mean.
 
@@ -84,7 +84,7 @@ def can_read(head: bytes) -> bool:
 
 
 def read(data: bytes, source: str, settings: Settings) -> tuple[ErrorTable, ...]:
-    """The errors that the control makes good: one of each column."""
+    """The errors that the control compensates: one of each column."""
     begin, *lines = data.decode("ascii", "replace").splitlines() or [""]
     found = _BEGIN.fullmatch(begin.strip())
     if found is None or len(lines) < 3 or lines[-1] != "[END]":

@@ -74,7 +74,7 @@ def _axis_of(words: Sequence[str]) -> str:
 
 
 def read(data: bytes, source: str, settings: Settings) -> tuple[ErrorTable, ...]:
-    """The errors that the control makes good: one of each column."""
+    """The errors that the control compensates: one of each column."""
     text = data.decode("ascii", "replace")
     if not text.endswith(f"{_END}\n"):
         raise FormatError(f"{source}: its last line is not {_END!r}; it may be cut off, or add it")

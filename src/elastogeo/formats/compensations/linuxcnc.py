@@ -72,7 +72,7 @@ def can_read(head: bytes) -> bool:
 
 
 def read(data: bytes, source: str, settings: Settings) -> tuple[ErrorTable, ...]:  # noqa: ARG001
-    """The errors that the control makes good."""
+    """The errors that the control compensates."""
     lines = data.decode("ascii", "replace").splitlines()
     rows: list[list[float]] = []
     for line in lines:

@@ -87,7 +87,7 @@ def can_read(head: bytes) -> bool:
 
 
 def read(data: bytes, source: str, settings: Settings) -> tuple[ErrorTable, ...]:
-    """The errors that the control makes good."""
+    """The errors that the control compensates."""
     lines = data.decode("ascii", "replace").split("\n")
     if len(lines) < 2 or lines[-2:] != ["M17", ""]:
         raise FormatError(f"{source}: does not end with M17 on a line of its own; it may be cut off, copy it again")

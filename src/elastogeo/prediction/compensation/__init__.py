@@ -1,4 +1,4 @@
-"""What a control can make good: error tables with their uncertainty, what of them is written, what is left after it.
+"""What a control can compensate: error tables with their uncertainty, what of them is written, what is left after it.
 
 Stands on the files of `prediction`, and on its wing `paths`: a corrected program is a path with its points moved.
 """

@@ -2,7 +2,7 @@
 
 Angles times levers, and what the force does to the compliance, are different at every point of a path. Where a program is
 made for one part, its points can be moved. Only components of the deviation that the tests determine all along the path, and
-that are greater than their uncertainty, are made good, each along its own axis of the workpiece; the rest is named.
+that are greater than their uncertainty, are compensated, each along its own axis of the workpiece; the rest is named.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ def compensate_path(
 
 
 def _chosen(before: PathPrediction) -> tuple[Array, list[LeftOut]]:
-    """Which components are made good, and why others are not."""
+    """Which components are compensated, and why others are not."""
     chosen, left = np.zeros(3, dtype=bool), []
     for k, name in enumerate(COMPONENTS):
         if not before.asked[:, k].any():
@@ -144,7 +144,7 @@ def _axis_shift(path: ToolPath, wanted: Array) -> Array:
         lost = np.abs(np.einsum("kij,kj->ki", directions, solved) - asked).max(initial=0.0)
         if lost > _REACHED * np.abs(asked).max(initial=0.0) + 1e-12:
             raise InputError(
-                f"machine {machine.name!r} has no linear axes along which the deviation could be made good: {lost:.3g} mm "
+                f"machine {machine.name!r} has no linear axes along which the deviation could be compensated: {lost:.3g} mm "
                 f"of it would stay"
             )
         shift[part.start : part.stop, linear] = solved

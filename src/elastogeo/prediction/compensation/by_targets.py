@@ -76,7 +76,7 @@ def _component(found: PositioningResults) -> tuple[str, float]:
     k = int(np.abs(direction).argmax())
     if abs(direction[k]) < ACROSS:
         raise InputError(
-            f"test {found.test.name!r}: its sensor reads askew, along {tuple(given)}, which no control makes good alone; "
+            f"test {found.test.name!r}: its sensor reads askew, along {tuple(given)}, which no control compensates alone; "
             f"compensate from an identification of several tests"
         )
     return COMPONENTS[k + 3 * found.angular], float(np.sign(direction[k]))

@@ -99,7 +99,7 @@ def _campaign(results: Sequence[PositioningResults | Identification], found: Seq
     names = [one.table.name for one in found]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
-        raise InputError(f"two results are of {twice[0]}; give the one that is to be made good")
+        raise InputError(f"two results are of {twice[0]}; give the one that is to be compensated")
     asked = [one.campaign if isinstance(one, Identification) else campaign_of(one.test) for one in results]
     if len(asked) == 1:
         return asked[0]

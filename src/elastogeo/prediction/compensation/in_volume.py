@@ -49,7 +49,7 @@ def in_volume(result: Identification, written: Mapping[str, ErrorTable], zero: M
     ----------
     result : Identification
     written : mapping of str to ErrorTable
-        By name, what the control makes good.
+        By name, what the control compensates.
     zero : mapping of str to float [mm]
         By axis, where its errors count as zero.
 

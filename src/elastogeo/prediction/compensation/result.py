@@ -22,7 +22,7 @@ from elastogeo.result import Result
 
 @dataclass(frozen=True, slots=True)
 class LeftOut:
-    """What is not made good, and why.
+    """What is not compensated, and why.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class CompensatedError(ByValue):
     ----------
     found : FoundError
     written : ErrorTable
-        What the control makes good, read back from its own files: with their points, rounding and sides.
+        What the control compensates, read back from its own files: with their points, rounding and sides.
     """
 
     found: FoundError
@@ -71,7 +71,7 @@ class CompensatedError(ByValue):
     def residual(self) -> ErrorTable:
         """What is expected after, at the same positions, with its uncertainty.
 
-        What was found less what the control makes good. It is as uncertain as what was found: where the file says what was
+        What was found less what the control compensates. It is as uncertain as what was found: where the file says what was
         found, nothing is left but that.
         """
         before = self.error
@@ -139,7 +139,7 @@ class PathCompensation(Result):
     expanded : array, shape (m, 4) [mm]
         Its expanded uncertainty, 95 %.
     components : tuple of str
-        Of `x`, `y`, `z`: those that are made good.
+        Of `x`, `y`, `z`: those that are compensated.
     left_out : tuple of LeftOut
     tolerance : float [mm]
     verdict : tuple of Check
@@ -207,6 +207,6 @@ class Compensation(Result):
         if not self.files:
             raise UnsupportedError(
                 "there is nothing to write: no error was found that is greater than its uncertainty, and that this control "
-                "makes good; see what was left out"
+                "compensates; see what was left out"
             )
         return write_whole({Path(folder) / name: content for name, content in self.files.items()})

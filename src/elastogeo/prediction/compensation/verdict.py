@@ -25,7 +25,7 @@ def checks(errors: Sequence[CompensatedError], left_out: Sequence[LeftOut], publ
         Whether a public text, or a run of the control, says the sign of its files.
     """
     return (
-        Check("something to make good", bool(errors), {"tables": _names(errors)}, decisive=True),
+        Check("something to compensate", bool(errors), {"tables": _names(errors)}, decisive=True),
         *([_falls(errors), _fine(errors), _sign(errors, public)] if errors else []),
         left_check("determined by the tests", left_out, "not determined"),
         left_check("greater than its uncertainty", left_out, "uncertainty"),

@@ -2,7 +2,7 @@
 
 test : what was tested, as of `elastogeo.identification/1`
 program : {name, blocks}, of the new program
-components : those of x, y, z of the workpiece that are made good
+components : those of x, y, z of the workpiece that are compensated
 tolerance_um : by which lines may leave the corrected path
 left_out : [{names, reason, size_um, uncertainty_um}]
 points : [{way_mm, x_mm, y_mm, z_mm, before_um, uncertainty_um, shift_um, after_um, uncertainty_after_um}], at most 2000 of

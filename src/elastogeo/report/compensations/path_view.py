@@ -104,7 +104,7 @@ def _table(found: PathCompensation) -> Table:
 
 def _left(found: PathCompensation) -> tuple[Table, ...]:
     rows = tuple((", ".join(out.names), _REASONS[out.reason]) for out in found.left_out)
-    return (Table(("left out", "why"), rows, (0, 1), "Not made good"),) if rows else ()
+    return (Table(("left out", "why"), rows, (0, 1), "Not compensated"),) if rows else ()
 
 
 def _picture(found: PathCompensation, name: str) -> Picture:

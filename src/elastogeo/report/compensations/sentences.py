@@ -10,12 +10,12 @@ from elastogeo.report.numbers import pretty, significant
 from elastogeo.report.sentences import Facts, says
 
 
-@says("something to make good")
+@says("something to compensate")
 def something_to_make_good(facts: Facts, passed: bool | None) -> str:
     """Whether anything was written."""
     if passed:
-        return f"The files make {several(facts['tables'])} good."
-    return "No error was found that is greater than its uncertainty and that this control makes good: there are no files."
+        return f"The files compensate {several(facts['tables'])}."
+    return "No error was found that is greater than its uncertainty and that this control compensates: there are no files."
 
 
 @says("error falls for sure")
@@ -98,7 +98,7 @@ def within_the_controls_means(facts: Facts, passed: bool | None) -> str:
 
 @says("path corrected")
 def path_corrected(facts: Facts, passed: bool | None) -> str:
-    """Which components of the deviation along a path are made good."""
+    """Which components of the deviation along a path are compensated."""
     if passed:
         return f"The new program makes the deviation along {', '.join(facts['components'])} of the workpiece good."
     return "Nothing of the deviation is certain and determined: the program is as it was."
@@ -119,4 +119,4 @@ def asked_of_the_tests(facts: Facts, passed: bool | None) -> str:
     """Along which axes nothing was asked."""
     if passed:
         return "The tests were asked for parameters along every axis of the workpiece."
-    return f"No parameter was asked for that moves the tool along {', '.join(facts['names'])}: nothing is made good there."
+    return f"No parameter was asked for that moves the tool along {', '.join(facts['names'])}: nothing is compensated there."

@@ -61,7 +61,7 @@ def compensation_view(found: Compensation) -> View:
 
 def _lead(found: Compensation) -> str:
     if not found.errors:
-        return "Nothing is written: no error was found that is certain and that this control makes good."
+        return "Nothing is written: no error was found that is certain and that this control compensates."
     one = max(found.errors, key=lambda error: error.before[0] / (_FAR if error.error.is_angular else 1.0))
     told = (
         f"{one.error.name} falls from {said_with(*one.before, one.error.is_angular)} to at most "
@@ -70,7 +70,7 @@ def _lead(found: Compensation) -> str:
     )
     if len(found.errors) == 1:
         return told
-    return f"{len(found.errors)} errors are made good. The greatest: {told}"
+    return f"{len(found.errors)} errors are compensated. The greatest: {told}"
 
 
 def _values(found: Compensation) -> Iterator[KeyValue]:
