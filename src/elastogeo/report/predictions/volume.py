@@ -184,4 +184,5 @@ def _ticks(values: Array) -> list[str]:
 
 
 def _colours() -> list[list[Any]]:
-    return [[k / (len(SOFT) - 1), colour] for k, colour in enumerate(SOFT)]
+    """The colours without the palest: a point of it would look hollow."""
+    return [[k / (len(SOFT) - 2), colour] for k, colour in enumerate(SOFT[1:])]
