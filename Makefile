@@ -10,7 +10,7 @@ demo: ## identify the example test, print the result, write the report
 test: ## set up everything that the tests need and run all of them
 	@$(PYTHON) make.py test
 
-bench: ## time the solver on many readings (minutes)
+bench: ## time whole commands, the solver, campaigns, plans, programs, maps and paths (minutes)
 	@$(PYTHON) make.py bench
 
 studies: ## count how often each check of a verdict is right, and write docs/verdicts.md (half an hour)

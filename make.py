@@ -39,12 +39,17 @@ TASKS = {
     ),
     "test": ("run every test", DEVELOPER, [("test", PYTEST)]),
     "bench": (
-        "time whole commands, the solver on many readings, and Monte Carlo trials (minutes)",
+        "time whole commands, the solver, campaigns, plans, programs, maps and paths (minutes)",
         DEVELOPER,
         [
             ("commands", ["benchmarks/commands.py"]),
             ("solver", ["benchmarks/run.py"]),
             ("monte carlo", ["benchmarks/monte_carlo.py"]),
+            ("campaigns", ["benchmarks/campaigns.py"]),
+            ("plans", ["benchmarks/plans.py"]),
+            ("programs", ["benchmarks/programs.py"]),
+            ("maps", ["benchmarks/maps.py"]),
+            ("paths", ["benchmarks/paths.py"]),
         ],
     ),
     "studies": (
