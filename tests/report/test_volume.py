@@ -160,6 +160,18 @@ def test_what_rests_on_a_prior_is_hollow_too(whole: ComplianceMap) -> None:
     assert all("nm/N" not in words and "prior" in words for words in found["not told by the tests"]["hovertext"])
 
 
+def test_the_softest_and_the_stiffest_place_are_marked(whole: ComplianceMap) -> None:
+    marked = {
+        one["name"]: (one["x"][0], one["y"][0], one["z"][0]) for one in drawing(whole)["data"] if one["choice"] is None
+    }
+    ends = {"the softest": whole.compliance.argmax(), "the stiffest": whole.compliance.argmin()}
+    assert marked == {
+        name: tuple(whole.grid.commands(np.array([k]))[0][list(whole.grid.columns)]) for name, k in ends.items()
+    }
+    hollow = replace(whole, supported=np.zeros_like(whole.supported), prior=True)
+    assert [one for one in drawing(hollow)["data"] if one["choice"] is None] == []
+
+
 def test_a_constant_compliance_has_one_number_on_its_scale(whole: ComplianceMap) -> None:
     same = 6e-5 * (1 + 1e-14 * np.arange(whole.compliance.size).reshape(whole.compliance.shape))
     found = traces(replace(whole, compliance=same), 0)

@@ -17,7 +17,7 @@ from elastogeo.report.view import Scene
 SOFT = ("#f7fbff", "#a6dbe8", "#56a9d6", "#4878b8", "#6c5aa8", "#a0468f")
 """Colours from the stiffest to the softest."""
 
-_GREY, _INK = "#767676", "#222222"
+_GREY = "#767676"
 _MOST, _LEAST_AXES, _MOST_AXES = 6000, 2, 3
 """So many points can still be turned smoothly and are not yet a wall."""
 _TICKS, _SURFACES = 5, 4
@@ -118,19 +118,18 @@ def _surfaces(places: list[Array], values: Array, known: NDArray[np.bool_], axes
 
 
 def _marks(found: ComplianceMap, wide: list[int]) -> Iterator[dict[str, Any]]:
-    """The softest and the stiffest place by name, unless it rests on a prior."""
-    for place, name in ((found.softest, "softest"), (found.stiffest, "stiffest")):
+    """The softest and the stiffest place, in the ink of the page, unless they rest on a prior."""
+    for place, name, symbol in ((found.softest, "softest", "diamond-open"), (found.stiffest, "stiffest", "square-open")):
         if place is not None and found.supported[place.index]:
             where = [float(found.grid.along[k][place.index[k]]) for k in wide] + [0.0] * (_MOST_AXES - len(wide))
             yield {
                 "type": "scatter3d",
-                "mode": "markers+text",
-                "text": [f"{name}<br> "],
-                "textposition": "top center",
+                "mode": "markers",
+                "name": f"the {name}",
                 **{axis: [one] for axis, one in zip("xyz", where, strict=True)},
                 "hoverinfo": "skip",
-                "showlegend": False,
-                "marker": {"symbol": "diamond-open", "size": 14, "color": _INK},
+                "showlegend": True,
+                "marker": {"symbol": symbol, "size": 14, "color": None},
             }
 
 
