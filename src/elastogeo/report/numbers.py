@@ -110,6 +110,17 @@ def said_estimate(estimate: Estimate) -> str:
     return value_with_uncertainty(estimate.value, estimate.expanded())
 
 
+def whole_percent(share: float) -> str:
+    """A share in whole percent: `100` only of what is all, `0` only of what is none.
+
+    Examples
+    --------
+    >>> [whole_percent(share) for share in (0.0, 0.001, 0.5, 0.999, 1.0)]
+    ['0', '1', '50', '99', '100']
+    """
+    return f"{share if share in (0.0, 1.0) else min(max(round(100 * share), 1), 99) / 100:.0%}".removesuffix("%")
+
+
 def probability(p_value: float) -> str:
     """A probability in words of two digits: `0.46`, `0.0012`, `< 0.0001`."""
     if not isfinite(p_value):

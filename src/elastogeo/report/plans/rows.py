@@ -11,7 +11,7 @@ import numpy as np
 from elastogeo.machine import Machine
 from elastogeo.observe import MachineTest
 from elastogeo.planning import Candidate, Plan
-from elastogeo.report.numbers import display_unit, pretty, significant
+from elastogeo.report.numbers import display_unit, pretty, significant, whole_percent
 from elastogeo.report.view import Table
 
 PER_NEWTON = "mm/N"
@@ -31,7 +31,7 @@ def test_table(plan: Plan) -> Table:
             where_of(one.candidate),
             f"{one.candidate.minutes:.0f}",
             str(one.rank_so_far),
-            f"{100 * one.supported_so_far:.0f}",
+            whole_percent(one.supported_so_far),
             significant(one.worst_so_far * unit.factor),
         )
         for k, one in enumerate(plan.tests, start=1)

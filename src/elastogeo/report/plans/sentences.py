@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from elastogeo.report.numbers import significant
+from elastogeo.report.numbers import significant, whole_percent
 from elastogeo.report.sentences import Facts, says
 from elastogeo.report.text import combination
 
@@ -25,7 +25,7 @@ def workspace_supported(facts: Facts, passed: bool | None) -> str:
         if more
         else "All candidates together do not support all of it: let rotary axes move, add tools, or draw more candidates."
     )
-    return f"The compliance at {tools} will be supported in {100 * facts['share']:.0f} % of the volume. {needed}"
+    return f"The compliance at {tools} will be supported in {whole_percent(facts['share'])} % of the volume. {needed}"
 
 
 @says("all directions strong")

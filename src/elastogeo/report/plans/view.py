@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from elastogeo.planning import ALONE, IN_A_SUM, UNSEEN, Expectation, Plan
 from elastogeo.report.ceilings import reason_words
 from elastogeo.report.extra import needs_report_extra
-from elastogeo.report.numbers import display_unit, pretty, significant
+from elastogeo.report.numbers import display_unit, pretty, significant, whole_percent
 from elastogeo.report.plans.document import plan_json
 from elastogeo.report.plans.rows import PER_NEWTON, test_table, what_of, where_of
 from elastogeo.report.text import MOST_TERMS, combination, listed
@@ -89,7 +89,7 @@ def _sentence(plan: Plan) -> str:
             else listed(alone) or "none asked for"
         )
         return f"{told}: {which}."
-    return f"{told}, and support the compliance at the tool in {100 * plan.supported:.0f} % of the volume."
+    return f"{told}, and support the compliance at the tool in {whole_percent(plan.supported)} % of the volume."
 
 
 def _values(plan: Plan) -> Iterator[KeyValue]:
@@ -100,7 +100,7 @@ def _values(plan: Plan) -> Iterator[KeyValue]:
     if plan.asked:
         yield from (_value(p) for p in [p for p in plan.parameters if p.name in plan.asked][:_MOST_VALUES])
         return
-    yield KeyValue("supported", f"{100 * plan.supported:.0f}", "%", "of the workspace")
+    yield KeyValue("supported", whole_percent(plan.supported), "%", "of the workspace")
     if worst is not None:
         unit = display_unit(PER_NEWTON, 2 * worst)
         yield KeyValue("U", significant(2 * worst * unit.factor), unit.name, "of the compliance at the tool, at worst")
@@ -134,7 +134,7 @@ def _notes(plan: Plan) -> Iterator[str]:
         yield pretty(
             f"Next best: {more.candidate.name} ({what_of(more.candidate)}; {where_of(more.candidate)}): rank {more.rank}, "
             f"worst u {significant(more.worst * unit.factor)} {unit.name} with the prior, "
-            f"{100 * more.supported:.0f} % supported."
+            f"{whole_percent(more.supported)} % supported."
         )
     if plan.fewest is not None and plan.goal == "workspace" and plan.fewest < len(plan.tests):
         yield f"{plan.fewest} tests could support the whole volume, less surely; the others make it surer."
@@ -188,7 +188,7 @@ def _workspace_table(plan: Plan) -> Table:
     rows = tuple(
         (
             pretty(", ".join(f"{part:g}" for part in tool.tool)),
-            f"{100 * tool.share:.0f}",
+            whole_percent(tool.share),
             "" if tool.median is None else significant(tool.median * unit.factor),
             "" if tool.worst is None else significant(tool.worst * unit.factor),
             significant(tool.worst_with_prior * unit.factor),

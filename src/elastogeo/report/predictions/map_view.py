@@ -13,7 +13,7 @@ from elastogeo.prediction import TYPICAL_COMPLIANCE, TYPICAL_LEVER, AgainstDesig
 from elastogeo.report.document import UM
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.head import campaign_head, files_section, origin
-from elastogeo.report.numbers import UNKNOWN, pretty, said_estimate, significant
+from elastogeo.report.numbers import UNKNOWN, pretty, said_estimate, significant, whole_percent
 from elastogeo.report.predictions.document import NM, map_json, rows_of
 from elastogeo.report.predictions.volume import volume_scene
 from elastogeo.report.text import combination, shared_units
@@ -96,7 +96,7 @@ def _values(found: ComplianceMap) -> Iterator[KeyValue]:
         yield KeyValue("least stiffness", _stiffness(found.softest.compliance), "N/µm", "at the softest place")
     if found.difference is not None and found.softest is not found.stiffest:
         yield KeyValue("difference", pretty(_said(found.difference)), "nm/N", "softest less stiffest place")
-    yield KeyValue("supported", f"{_PERCENT * found.share_supported:.0f}", "%", "of the places, by the tests")
+    yield KeyValue("supported", whole_percent(found.share_supported), "%", "of the places, by the tests")
 
 
 def _tables(found: ComplianceMap) -> Iterator[Table]:
