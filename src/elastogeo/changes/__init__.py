@@ -4,7 +4,53 @@ Stands on all rooms below, mostly on `identification` and `prediction` for what 
 no page. `history` keeps the series and acts on the verdicts, `report` shows them.
 """
 
+from elastogeo.changes.causes import Cause, Signatures
+from elastogeo.changes.change_points import ChangePoint
+from elastogeo.changes.drifts import Drift
+from elastogeo.changes.fleets import MACHINE_STATES, OVERDUE, FleetState, MachineRow, MachineState
+from elastogeo.changes.instruments import InstrumentMove
 from elastogeo.changes.kinds import KINDS, Kind
-from elastogeo.changes.series import Baseline, Indicator, Series
+from elastogeo.changes.result import (
+    ALARM,
+    DRIFT,
+    NO_BASELINE,
+    STATES,
+    STEADY,
+    STEP,
+    SUSPECT,
+    WATCH,
+    ChangeVerdict,
+    IndicatorState,
+    Step,
+)
+from elastogeo.changes.series import Baseline, Indicator, Series, Tolerance
 
-__all__ = ["KINDS", "Baseline", "Indicator", "Kind", "Series"]
+__all__ = [
+    "ALARM",
+    "DRIFT",
+    "KINDS",
+    "MACHINE_STATES",
+    "NO_BASELINE",
+    "OVERDUE",
+    "STATES",
+    "STEADY",
+    "STEP",
+    "SUSPECT",
+    "WATCH",
+    "Baseline",
+    "Cause",
+    "ChangePoint",
+    "ChangeVerdict",
+    "Drift",
+    "FleetState",
+    "Indicator",
+    "IndicatorState",
+    "InstrumentMove",
+    "Kind",
+    "MachineRow",
+    "MachineState",
+    "Series",
+    "Signatures",
+    "Step",
+    "Tolerance",
+]

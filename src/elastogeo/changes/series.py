@@ -103,3 +103,21 @@ class Baseline:
     tests: tuple[str, ...]
     since: float
     cleared: tuple[float, ...] = field(default=())
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerance:
+    """What a person wants of one indicator of a series.
+
+    Attributes
+    ----------
+    lower, upper : float or None
+        Between which it must stay, in the unit of its kind.
+    relevance : float or None
+        Least change that is an alarm, in the unit of its kind (a share of the mean where the kind is relative); in place of
+        the kind's.
+    """
+
+    lower: float | None = None
+    upper: float | None = None
+    relevance: float | None = None
