@@ -4,7 +4,8 @@ from pathlib import Path
 
 from typer.testing import CliRunner
 
-from elastogeo.cli.app import application, commands
+from elastogeo.cli.app import application
+from elastogeo.cli.doors import every
 
 PAGE = Path(__file__).with_name("cli.md")
 INTRODUCTION = """\
@@ -21,11 +22,11 @@ This page is written from the help texts by `docs/make_cli.py`.
 def reference() -> str:
     """The page as it should be."""
     sections = [INTRODUCTION, section()]
-    return "\n".join([*sections, *(section(command) for command in (one.__name__ for one in commands()))])
+    return "\n".join([*sections, *(section(*typed.split()) for typed in every())])
 
 
 def section(*command: str) -> str:
-    """The help text of one command."""
+    """The help text of one command or group, by its words."""
     as_shown = {"prog_name": "elastogeo", "terminal_width": 78, "catch_exceptions": False}
     shown = CliRunner(env={"NO_COLOR": "1"}).invoke(application(), [*command, "--help"], **as_shown)
     title = " ".join(["elastogeo", *command])

@@ -57,6 +57,7 @@ RECIPES = {
     "An error source": "elastogeo.sources.families",
     "A test that can be planned": "elastogeo.planning.offers.proposal",
     "A result that shows itself": "elastogeo.report.view",
+    "A command, a group of commands": "elastogeo.cli.doors",
 }
 
 

@@ -1,5 +1,6 @@
 """The doors: exit codes, standard output and error, the JSON contract, what a newcomer types."""
 
+import importlib
 import json
 import os
 import subprocess
@@ -7,8 +8,17 @@ import sys
 
 import pytest
 
-from elastogeo.cli.app import ORDER, commands
+from elastogeo.cli.doors import ORDER, Group, doors, every
 from elastogeo.formats import example_test
+
+FILES = {
+    one.module: typed
+    for name, door in doors().items()
+    for typed, one in (
+        {f"{name} {inner}": command for inner, command in door.commands.items()} if isinstance(door, Group) else {name: door}
+    ).items()
+}
+"""What is typed for the command of each file."""
 
 
 @pytest.fixture
@@ -142,13 +152,38 @@ def test_the_example_is_found():
     assert (example_test() / "test.toml").is_file()
 
 
-def test_the_help_lists_every_command_with_its_whole_summary():
+@pytest.mark.parametrize("group", ["", *(name for name, door in doors().items() if isinstance(door, Group))])
+def test_the_help_lists_every_command_with_its_whole_summary(group):
     """One word each, in the order of the design; at 80 columns no summary is cut."""
     environment = {**os.environ, "COLUMNS": "80", "TERMINAL_WIDTH": "80", "NO_COLOR": "1"}
-    done = subprocess.run(
-        [sys.executable, "-m", "elastogeo", "--help"], capture_output=True, text=True, check=True, env=environment
-    )
+    words = [sys.executable, "-m", "elastogeo", *group.split(), "--help"]
+    done = subprocess.run(words, capture_output=True, text=True, check=True, env=environment)
     listed = done.stdout.partition("Commands:\n")[2].splitlines()
-    assert [line.split()[0] for line in listed] == [one.__name__ for one in commands()]
+    names = [line.split()[0] for line in listed]
+    inside = doors()[group].commands if group else doors()
+    order = importlib.import_module(f"elastogeo.cli.{group}").ORDER if group else ORDER
+    assert names == list(inside)
+    assert names == sorted(names, key=order.index)
     assert all(line.endswith(".") and not line.endswith("..") for line in listed)
-    assert [name for name in ORDER if name in {one.__name__ for one in commands()}] == [one.__name__ for one in commands()]
+
+
+@pytest.mark.parametrize("typed", ["identify", "history list"])
+def test_only_the_command_that_is_asked_is_imported(typed):
+    probe = "import sys; from elastogeo.cli.app import application; application(*sys.argv[1:]); print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", probe, *typed.split()], capture_output=True, text=True, check=True)
+    assert [FILES[one] for one in done.stdout.split() if one in FILES] == [typed]
+
+
+def test_a_command_that_python_keeps_the_name_of_is_typed_without_its_underscore(elastogeo):
+    assert "history list" in every()
+    assert elastogeo("history", "list", "--help")[0] == 0
+    code, out, err = elastogeo("history", "list_", "--help")
+    assert (code, out) == (2, "")
+    assert "No such command 'list_'" in err
+
+
+def test_a_group_without_a_command_shows_its_commands(elastogeo):
+    code, out, err = elastogeo("history")
+    assert code == 2
+    assert "Usage: elastogeo history [OPTIONS] COMMAND" in out + err
+    assert "\n  list " in out + err

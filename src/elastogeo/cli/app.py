@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import gc
 import sys
-from collections.abc import Callable, Iterator
-from importlib import import_module
-from pkgutil import iter_modules, walk_packages
+from collections.abc import Iterable
 from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
+from elastogeo.cli.doors import Command, doors
 from elastogeo.errors import ElastogeoError, UnsupportedError
 from elastogeo.version import VERSION
 
@@ -28,45 +28,39 @@ First steps:
   elastogeo identify my-test            identify it
 """
 
-ORDER = (
-    "new", "simulate", "identify", "diagnose", "compare", "whatif", "stiffness", "static", "positioning", "drive",
-    "record", "inspect", "calibrate", "explain", "plan", "nc", "map", "predict", "compensate", "machines", "demo",
-)  # fmt: skip
-"""In which the help lists the commands; one that is not here comes last."""
 
-
-def commands() -> list[Callable[..., Any]]:
-    """The commands, as the help lists them: of every file in a wing of this room the function of its name."""
-    found = _named()
-    known = {name: place for place, name in enumerate(ORDER)}
-    return [_command(found, name) for name in sorted(found, key=lambda n: (known.get(n, len(known)), n))]
-
-
-def application(asked: str = "") -> typer.Typer:
-    """The command line: with the one command that is asked, if there is one of that name, else with all."""
-    found = _named()
-    app = typer.Typer(rich_markup_mode=None, help=EXAMPLE, no_args_is_help=True, pretty_exceptions_enable=False)
+def application(*asked: str) -> typer.Typer:
+    """The command line: with the one command that is asked by its words, if there is one, else with all."""
+    found = doors()
+    first, second = (*asked, "", "")[:2]
+    app = typer.Typer(
+        cls=_InOrder, rich_markup_mode=None, help=EXAMPLE, no_args_is_help=True, pretty_exceptions_enable=False
+    )
     app.callback()(_options)
-    for command in [_command(found, asked)] if asked in found else commands():
-        app.command()(command)
+    for name in _chosen(found, first):
+        door = found[name]
+        if isinstance(door, Command):
+            app.command(door.name)(door.function())
+            continue
+        group = typer.Typer(rich_markup_mode=None, help=door.line, no_args_is_help=True)
+        for inner in _chosen(door.commands, second if first == name else ""):
+            group.command(inner)(door.commands[inner].function())
+        app.add_typer(group, name=name)
     return app
 
 
-def _named() -> dict[str, str]:
-    """The module of each command."""
-    return {module.rpartition(".")[2]: module for module in _files()}
+class _InOrder(TyperGroup):
+    """Lists groups where the order has them; typer would list them behind all commands."""
+
+    def list_commands(self, _: Any) -> list[str]:
+        """The names, as the help lists them."""
+        return [name for name in doors() if name in self.commands]
 
 
-def _command(found: dict[str, str], name: str) -> Callable[..., Any]:
-    command: Callable[..., Any] = getattr(import_module(found[name]), name)
-    return command
-
-
-def _files() -> Iterator[str]:
-    package = import_module(__name__.rpartition(".")[0])
-    for wing in walk_packages(package.__path__, f"{package.__name__}."):
-        if wing.ispkg:
-            yield from (file.name for file in iter_modules(import_module(wing.name).__path__, f"{wing.name}."))
+def _chosen(found: Iterable[str], asked: str) -> list[str]:
+    """The one that is asked for, else all."""
+    found = list(found)
+    return [asked] if asked in found else found
 
 
 def _version(wanted: bool) -> None:
@@ -85,7 +79,7 @@ def main() -> int:
     """Run the command line; return the exit code."""
     gc.set_threshold(50_000)  # what a command makes lives to its end: looking for garbage takes a tenth of its time
     try:
-        application(sys.argv[1] if len(sys.argv) > 1 else "")()
+        application(*sys.argv[1:3])()
     except SystemExit as end:
         return end.code if isinstance(end.code, int) else 0
     except UnsupportedError as error:

@@ -27,6 +27,10 @@ Prefer = Annotated[
     list[str] | None,
     typer.Option("--prefer", help="Parameter to retain before others that cannot be told from it; may be repeated."),
 ]
+Store = Annotated[
+    str,
+    typer.Option("--store", envvar="ELASTOGEO_STORE", help="The history: its file (SQLite), or postgresql://..."),
+]
 
 Levels = Annotated[list[float] | None, typer.Option("--level", help="Force level [N] to use alone; may be repeated.")]
 WithoutLevels = Annotated[
@@ -34,6 +38,9 @@ WithoutLevels = Annotated[
 ]
 Reciprocal = Annotated[bool, typer.Option("--reciprocal", help="Take each joint as symmetric: C_dfj and C_fdj are one.")]
 Robust = Annotated[bool, typer.Option("--robust", help="Let outlying readings count less (Huber).")]
+
+STORE = "history.db"
+"""Where the history is if nothing else is said: a file in the folder that one is in."""
 
 
 def reference_level(given: str) -> float | Literal["test", "none"]:

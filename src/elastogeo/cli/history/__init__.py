@@ -1,0 +1,9 @@
+"""The group `elastogeo history`: machines and their tests over the years, and what has changed."""
+
+GROUP = "Keep the tests of machines, and say what has changed."
+ORDER = (
+    "init", "import", "watch", "list", "show", "machine", "event", "aside", "plan", "recompute",
+    "acknowledge", "close", "silence", "recipient", "deliver", "digest",
+    "export", "backup", "restore", "verify", "audit", "rules", "demo",
+)  # fmt: skip
+"""In which the help lists the commands."""

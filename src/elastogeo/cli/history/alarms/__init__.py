@@ -1,0 +1,1 @@
+"""Commands on alarms and their messages."""

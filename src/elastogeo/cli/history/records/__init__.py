@@ -1,0 +1,1 @@
+"""Commands that write into the store: tests, machines, events, plans."""

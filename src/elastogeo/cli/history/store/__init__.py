@@ -1,0 +1,1 @@
+"""Commands that keep the store whole: make it, check it, copy it."""

@@ -1,0 +1,1 @@
+"""Commands that need no store of your own: the rules tried out, a fleet to look at."""
