@@ -7,7 +7,8 @@ no page. `history` keeps the series and acts on the verdicts, `report` shows the
 from elastogeo.changes.causes import Cause, Signatures
 from elastogeo.changes.change_points import ChangePoint
 from elastogeo.changes.drifts import Drift
-from elastogeo.changes.fleets import MACHINE_STATES, OVERDUE, FleetState, MachineRow, MachineState
+from elastogeo.changes.due_dates import DUE, NEVER_TESTED, NOT_ASKED, NOT_DUE, OVERDUE, DueDate, due_after, due_on
+from elastogeo.changes.fleets import MACHINE_STATES, FleetState, MachineRow, MachineState
 from elastogeo.changes.instruments import InstrumentMove
 from elastogeo.changes.kinds import KINDS, Kind
 from elastogeo.changes.result import (
@@ -28,8 +29,12 @@ from elastogeo.changes.series import Baseline, Indicator, Series, Tolerance
 __all__ = [
     "ALARM",
     "DRIFT",
+    "DUE",
     "KINDS",
     "MACHINE_STATES",
+    "NEVER_TESTED",
+    "NOT_ASKED",
+    "NOT_DUE",
     "NO_BASELINE",
     "OVERDUE",
     "STATES",
@@ -42,6 +47,7 @@ __all__ = [
     "ChangePoint",
     "ChangeVerdict",
     "Drift",
+    "DueDate",
     "FleetState",
     "Indicator",
     "IndicatorState",
@@ -53,4 +59,6 @@ __all__ = [
     "Signatures",
     "Step",
     "Tolerance",
+    "due_after",
+    "due_on",
 ]

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from elastogeo.changes.due_dates import OVERDUE
 from elastogeo.changes.instruments import InstrumentMove
 from elastogeo.changes.result import ALARM, NO_BASELINE, STEADY, SUSPECT, WATCH, ChangeVerdict
 from elastogeo.result import Part, Result
-
-OVERDUE = "overdue"
 
 MACHINE_STATES = (ALARM, SUSPECT, OVERDUE, WATCH, NO_BASELINE, STEADY)
 """Of a machine, the worst first."""
