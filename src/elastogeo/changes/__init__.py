@@ -8,6 +8,7 @@ from elastogeo.changes.causes import Cause, Signatures
 from elastogeo.changes.change_points import ChangePoint
 from elastogeo.changes.drifts import Drift
 from elastogeo.changes.due_dates import DUE, NEVER_TESTED, NOT_ASKED, NOT_DUE, OVERDUE, DueDate, due_after, due_on
+from elastogeo.changes.events import Event, OpenAlarm
 from elastogeo.changes.fleets import MACHINE_STATES, FleetState, MachineRow, MachineState
 from elastogeo.changes.instruments import InstrumentMove
 from elastogeo.changes.kinds import KINDS, Kind
@@ -48,6 +49,7 @@ __all__ = [
     "ChangeVerdict",
     "Drift",
     "DueDate",
+    "Event",
     "FleetState",
     "Indicator",
     "IndicatorState",
@@ -55,6 +57,7 @@ __all__ = [
     "Kind",
     "MachineRow",
     "MachineState",
+    "OpenAlarm",
     "Series",
     "Signatures",
     "Step",

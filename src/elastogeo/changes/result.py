@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from elastogeo.changes.causes import Cause
 from elastogeo.changes.change_points import ChangePoint
 from elastogeo.changes.drifts import Drift
+from elastogeo.changes.due_dates import DueDate
+from elastogeo.changes.events import Event, OpenAlarm
 from elastogeo.changes.kinds import Kind
 from elastogeo.changes.series import Baseline, Series
 from elastogeo.identification import Check
@@ -168,6 +170,12 @@ class ChangeVerdict(Result):
     cannot_tell : tuple of tuple of str
         Components among which this test cannot tell.
     verdict : tuple of Check
+    events : tuple of Event
+        What happened to the machine and its instruments, in the order of time; the history fills it.
+    due : DueDate or None
+        Of the next test; the history fills it.
+    alarm : OpenAlarm or None
+        The one that no person has closed; the history fills it.
     """
 
     series: Series
@@ -185,6 +193,9 @@ class ChangeVerdict(Result):
     causes: tuple[Cause, ...]
     cannot_tell: tuple[tuple[str, ...], ...]
     verdict: tuple[Check, ...]
+    events: tuple[Event, ...] = ()
+    due: DueDate | None = None
+    alarm: OpenAlarm | None = None
 
     def __getitem__(self, name: str) -> IndicatorState:
         """The indicator of this name.

@@ -67,6 +67,8 @@ class Series(ByValue):
         Serial number of the instrument of each test; empty where it is not known.
     simulated : str
         From what the tests are simulated; empty if they were measured.
+    machine : str
+        The very machine: `Hermle C50 no. 3`; empty where the name of the series says all.
     """
 
     name: str
@@ -81,6 +83,7 @@ class Series(ByValue):
     aside: Flags
     instruments: tuple[str, ...]
     simulated: str = ""
+    machine: str = ""
 
     def __len__(self) -> int:
         return len(self.tests)
