@@ -84,6 +84,13 @@ def test_asked_for_c_xxx_the_planner_proposes_the_probe_across_the_carriage() ->
     assert "C_XXY" in told
 
 
+def test_a_plan_that_makes_nothing_of_what_was_asked_for_known_alone_says_so(some: tuple[Candidate, ...]) -> None:
+    """Bars see C_XXX only together with what follows it in the loop: the plan is shown all the same."""
+    found = eg.plan(Means(HERMLE, readings=18), tests=2, parameters="C_XXX", chosen_from=some[:20])
+    assert found["C_XXX"].known != "alone"
+    assert view_of(found).sentence.endswith(": none of what was asked for.")
+
+
 @pytest.mark.parametrize(("name", "instrument"), [("C_XBY", "displacement-probes"), ("C_ACX", "sensor-frame")])
 def test_what_bars_do_not_tell_and_others_do_is_proposed_too(name: str, instrument: str) -> None:
     """A bar sees only C_df + C_fd; forces across the reading tell them apart, and a twist tells what lever a force has."""

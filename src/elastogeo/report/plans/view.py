@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from elastogeo.planning import ALONE, IN_A_SUM, UNSEEN, Expectation, Plan
@@ -83,13 +83,15 @@ def _sentence(plan: Plan) -> str:
     )
     if plan.asked:
         alone = [p.name for p in plan.parameters if p.name in plan.asked and p.known == ALONE]
-        which = (
-            f"all that was asked for ({listed(alone)})"
-            if len(alone) == len(plan.asked)
-            else listed(alone) or "none asked for"
-        )
-        return f"{told}: {which}."
+        return f"{told}: {_known_of_the_asked(alone, len(plan.asked))}."
     return f"{told}, and support the compliance at the tool in {whole_percent(plan.supported)} % of the volume."
+
+
+def _known_of_the_asked(alone: Sequence[str], asked: int) -> str:
+    """Which of the named parameters will be known by themselves."""
+    if not alone:
+        return "none of what was asked for"
+    return f"all that was asked for ({listed(alone)})" if len(alone) == asked else listed(alone)
 
 
 def _values(plan: Plan) -> Iterator[KeyValue]:
