@@ -14,7 +14,6 @@ from elastogeo.formats import read_machine
 from elastogeo.machine import Machine, Point, Workpiece, jacobian, parse_topology
 from elastogeo.observe import BAR, PROBES, SIX, JointProbe, MachineTest, Run, Sensor, SensorFrame, family_of
 from elastogeo.planning import ceiling, family_ceiling
-from elastogeo.planning.families import _decomposed
 
 ONE: tuple[Point, ...] = ((0.0, 0.0, -150.0),)
 TWO: tuple[Point, ...] = ((0.0, 0.0, -100.0), (0.0, 0.0, -200.0))
@@ -110,16 +109,3 @@ def test_the_family_of_a_test_is_that_of_its_loads_and_readings(make_test: Calla
 def test_a_family_that_does_not_exist_is_refused() -> None:
     with pytest.raises(InputError, match="no family 'laser' of tests; the families are bar, probes and six"):
         family_ceiling(machine("wYXFZt"), "laser")
-
-
-def test_where_the_fast_decomposition_fails_the_slow_one_answers(monkeypatch: pytest.MonkeyPatch) -> None:
-    rows = np.random.default_rng(1).normal(size=(30, 8)) @ np.diag([1, 1, 1, 1, 1, 1, 0, 0])
-    expected, _ = _decomposed(rows)
-
-    def fails(*_: object, **__: object) -> None:
-        raise np.linalg.LinAlgError("SVD did not converge")
-
-    monkeypatch.setattr(np.linalg, "svd", fails)
-    values, Vt = _decomposed(rows)
-    assert values == pytest.approx(expected, abs=1e-12)
-    assert np.abs(rows @ Vt[6:].T).max() < 1e-12

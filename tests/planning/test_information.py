@@ -10,7 +10,6 @@ from elastogeo.errors import InputError
 from elastogeo.machine import loop_frames
 from elastogeo.observe import Circle, Imperfection, LoadedBallBar, MachineTest, Run
 from elastogeo.planning import Means, ReadingNoise, candidates, unknowns, whitened
-from elastogeo.planning.choosing.space import row_space
 from elastogeo.planning.made import at_planned_poses
 from elastogeo.planning.workspaces import workspace
 from elastogeo.prediction import knowledge_of
@@ -100,18 +99,6 @@ def test_angles_that_differ_by_chance_are_the_same_poses() -> None:
     assert np.array_equal(seen[0].commands, seen[1].commands)
     assert np.linalg.norm(seen[1].wrench[:, :3], axis=1) == pytest.approx(700.0)
     assert np.abs(np.linalg.norm(seen[0].direction[:, :3], axis=1) - 1).max() < 1e-12
-
-
-def test_the_row_space_is_found_where_the_fast_algorithm_does_not_converge(monkeypatch: pytest.MonkeyPatch) -> None:
-    rows = np.random.default_rng(2).standard_normal((5, 9))
-    exact = row_space(rows)
-
-    def stuck(*_: object, **__: object) -> None:
-        raise np.linalg.LinAlgError("SVD did not converge")
-
-    monkeypatch.setattr(np.linalg, "svd", stuck)
-    found = row_space(rows)
-    assert found @ found.T == pytest.approx(exact @ exact.T, abs=1e-12)
 
 
 def test_noise_and_means_refuse_wrong_units() -> None:

@@ -24,6 +24,7 @@ from elastogeo.estimate import RANK_TOLERANCE
 from elastogeo.identification import reciprocal_sources
 from elastogeo.machine import Array, Frame, LoopFrames, Machine, Site, loop_frames
 from elastogeo.planning.invariants import generator, invariants, twist_map
+from elastogeo.planning.rank import counted, rank_of, unit_rows
 from elastogeo.prediction import parameter_scales
 from elastogeo.sources import Source, select_sources
 
@@ -107,11 +108,11 @@ class Ceiling(ByValue):
         """
         inside = self._places_of(names)
         outside = np.delete(self.kernel / self.scales, inside, axis=1)
-        return len(inside) - (len(outside) - _rank(outside))
+        return len(inside) - (len(outside) - rank_of(unit_rows(outside), DEPENDENT))
 
     def gain(self, names: Collection[str]) -> int:
         """By how much the rank grows if each of these compliances becomes known by itself, by a reading elsewhere."""
-        return _rank((self.kernel / self.scales)[:, self._places_of(names)])
+        return rank_of(unit_rows((self.kernel / self.scales)[:, self._places_of(names)]), DEPENDENT)
 
     def unseen(self, name: str) -> bool:
         """Whether a compliance is never known by itself: something that no test sees changes it."""
@@ -123,8 +124,7 @@ class Ceiling(ByValue):
         rows = self.kernel / self.scales
         hidden = rows[:, inside] if len(inside) == self.columns else _vanishing(rows, inside)
         _, _, Vt = np.linalg.svd(hidden)
-        seen = Vt[len(hidden) :].T
-        seen = seen / np.maximum(np.linalg.norm(seen, axis=1, keepdims=True), np.finfo(float).tiny)
+        seen = unit_rows(Vt[len(hidden) :].T)
         groups: list[tuple[str, ...]] = []
         left = np.flatnonzero(seen.any(axis=1))
         while left.size:
@@ -271,12 +271,4 @@ def _vanishing(rows: Array, inside: list[int]) -> Array:
     """What combinations of rows leave inside, shape (k, len(inside)), that vanish everywhere else."""
     outside = np.delete(rows, inside, axis=1)
     U, values, _ = np.linalg.svd(outside)
-    rank = int((values > DEPENDENT * values[0]).sum()) if values.size else 0
-    return np.asarray(U[:, rank:].T @ rows[:, inside])
-
-
-def _rank(rows: Array) -> int:
-    if not rows.size:
-        return 0
-    values = np.linalg.svd(rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-300), compute_uv=False)
-    return int((values > DEPENDENT * values[0]).sum()) if values[0] else 0
+    return np.asarray(U[:, counted(values, DEPENDENT) :].T @ rows[:, inside])

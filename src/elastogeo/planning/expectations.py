@@ -10,8 +10,8 @@ from elastogeo.estimate import Confounding, Factor, confounding
 from elastogeo.identification import retaining_order
 from elastogeo.machine import Array
 from elastogeo.observe import MachineTest
-from elastogeo.planning.choosing.space import RANK
 from elastogeo.planning.information import Unknowns
+from elastogeo.planning.rank import counted, decomposed
 from elastogeo.planning.result import ALONE, IN_A_SUM, UNSEEN, Expectation
 
 NO_READING = 1e-10
@@ -45,15 +45,15 @@ def data_uncertainty(rows: Array, functionals: Array) -> Array:
 
     The part of a functional that no reading sees counts as known: **it is for supported ones only.**
     """
-    _, values, turns = np.linalg.svd(np.linalg.qr(rows, mode="r"), full_matrices=False)
-    told = values > RANK * values.max(initial=0.0)
-    return np.asarray(np.linalg.norm(functionals @ turns[told].T / values[told], axis=1))
+    values, turns = decomposed(rows)
+    rank = counted(values)
+    return np.asarray(np.linalg.norm(functionals @ turns[:rank].T / values[:rank], axis=1))
 
 
 def weak_directions(rows: Array) -> int:
     """How many of the directions that readings determine they know worse than the expected size, 1 in scaled parameters."""
-    values = np.linalg.svd(rows, compute_uv=False)
-    return int(np.sum((values > RANK * values.max(initial=0.0)) & (values < 1.0)))
+    values, _ = decomposed(rows)
+    return int(np.sum(values[: counted(values)] < 1.0))
 
 
 def _told_apart(seen: Array, asked: Unknowns, tests: Sequence[MachineTest], prefer: Sequence[str]) -> Confounding:

@@ -19,6 +19,7 @@ from elastogeo.identification import reciprocal_sources
 from elastogeo.machine import Array, Machine, Point
 from elastogeo.observe import BAR, PROBES, SIX
 from elastogeo.planning.ceilings import compliances_of
+from elastogeo.planning.rank import counted, decomposed, rank_of, unit_rows
 from elastogeo.prediction import functionals, parameter_scales, virtual_observations
 
 SEEN = 1e-9
@@ -71,8 +72,7 @@ class FamilyCeiling(ByValue):
         if unknown:
             raise InputError(f"{', '.join(unknown)}: no compliance of a joint of this machine")
         rows = self.seen[[self.labels.index(name) for name in dict.fromkeys(names)]]
-        values = np.linalg.svd(rows / np.linalg.norm(rows, axis=1, keepdims=True).clip(SEEN), compute_uv=False)
-        return int((values > SEEN * values[0]).sum()) if rows.any() else 0
+        return rank_of(rows / np.linalg.norm(rows, axis=1, keepdims=True).clip(SEEN), SEEN)
 
 
 def family_ceiling(
@@ -118,12 +118,12 @@ def family_ceiling(
             machine, commands, np.tile(readings, (poses, 1)), np.tile(loads, (poses, 1)), np.asarray(tool, dtype=float)
         )
         rows = functionals(sources, machine, observed) * scales
-        blocks.append(rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), np.finfo(float).tiny))
-    values, Vt = _decomposed(np.vstack(blocks))
-    rank = int((values > SEEN * values[0]).sum())
+        blocks.append(unit_rows(rows))
+    values, turns = decomposed(np.vstack(blocks))
+    rank = counted(values, SEEN)
     left = values[rank] if rank < len(values) else 0.0
     gap = float(values[rank - 1] / left) if left else float("inf")
-    return FamilyCeiling(family, tuple(source.name for source in sources), np.ascontiguousarray(Vt[:rank].T), gap)
+    return FamilyCeiling(family, tuple(source.name for source in sources), np.ascontiguousarray(turns[:rank].T), gap)
 
 
 def _pairs(family: str) -> tuple[Array, Array]:
@@ -152,15 +152,3 @@ def _poses(machine: Machine, held: Mapping[str, float], count: int, random: np.r
     for axis, command in held.items():
         commands[:, machine.index(axis)] = command
     return commands
-
-
-def _decomposed(rows: Array) -> tuple[Array, Array]:
-    """Singular values and right vectors; by the slower algorithm where the fast one does not converge on finite rows."""
-    R = np.linalg.qr(rows, mode="r")
-    try:
-        _, values, Vt = np.linalg.svd(R)
-    except np.linalg.LinAlgError:
-        from scipy.linalg import svd  # here: hardly ever needed
-
-        _, values, Vt = svd(R, lapack_driver="gesvd")
-    return np.asarray(values), np.asarray(Vt)

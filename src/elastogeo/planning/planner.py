@@ -12,7 +12,6 @@ from elastogeo.identification import reciprocal_sources
 from elastogeo.machine import Machine, Point
 from elastogeo.observe import Askable, Campaign, campaign_of
 from elastogeo.planning.choosing.choice import scores_of
-from elastogeo.planning.choosing.space import row_space
 from elastogeo.planning.expectations import expectations, weak_directions
 from elastogeo.planning.information import unknowns
 from elastogeo.planning.noise import ReadingNoise
@@ -21,6 +20,7 @@ from elastogeo.planning.offers.candidates import candidates
 from elastogeo.planning.offers.means import Means
 from elastogeo.planning.order import in_order_of_doing
 from elastogeo.planning.proposed import out_of_reach, proposed_for, reasons_for
+from elastogeo.planning.rank import rank_of
 from elastogeo.planning.reasons import Reason
 from elastogeo.planning.result import NextBest, Plan, PlannedTest
 from elastogeo.planning.study import Study, chosen_of, goals_of, highest_rank, needed_to_support, study_of, support_of
@@ -140,7 +140,7 @@ def _answer(
     told = study.told(order)
     parameters = expectations(told, study.asked, tests, names)
     support = support_of(study, order)
-    weak, rank = weak_directions(told), row_space(told).shape[1]
+    weak, rank = weak_directions(told), rank_of(told)
     return Plan(
         means=study.means,
         noise=noise,
@@ -168,7 +168,7 @@ def _steps(study: Study, order: Sequence[int]) -> Iterator[PlannedTest]:
         so_far = order[:count]
         yield PlannedTest(
             candidate=study.offered[k],
-            rank_so_far=row_space(study.told(so_far)).shape[1],
+            rank_so_far=rank_of(study.told(so_far)),
             supported_so_far=float(study.supported(so_far).mean()),
             worst_so_far=study.worst_with_prior(so_far),
         )
@@ -182,7 +182,7 @@ def _next_best(study: Study, goal: str, names: Sequence[str], order: Sequence[in
     more = [*order, left[int(np.argmax(scores))]]
     return NextBest(
         candidate=study.offered[more[-1]],
-        rank=row_space(study.told(more)).shape[1],
+        rank=rank_of(study.told(more)),
         worst=study.worst_with_prior(more),
         supported=float(study.supported(more).mean()),
     )

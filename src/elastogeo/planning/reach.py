@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from elastogeo.estimate import RANK_TOLERANCE, Confounding
 from elastogeo.identification import Explanation
-from elastogeo.machine import Array
 from elastogeo.planning.ceilings import ceiling
 from elastogeo.planning.families import family_ceiling
+from elastogeo.planning.rank import rank_of, unit_rows
 from elastogeo.prediction import parameter_scales
 from elastogeo.sources import Source
 
@@ -60,9 +58,4 @@ def _rank_of(found: Confounding, sources: list[Source]) -> int:
     if len(sources) == len(found.labels):
         return found.rank
     part = found.combinations[:, [found.labels.index(source.name) for source in sources]] * parameter_scales(sources)
-    return _rank(part[part.any(axis=1)])
-
-
-def _rank(rows: Array) -> int:
-    values = np.linalg.svd(rows / np.linalg.norm(rows, axis=1, keepdims=True), compute_uv=False)
-    return int((values > RANK_TOLERANCE * values[0]).sum()) if values.size else 0
+    return rank_of(unit_rows(part), RANK_TOLERANCE)

@@ -13,7 +13,7 @@ from elastogeo.machine import Array
 from elastogeo.observe import Campaign, family_of
 from elastogeo.planning.choosing.choice import Budget, Progress, chosen, covariance_of, exchanged, extended, one_by_one
 from elastogeo.planning.choosing.goals import Goal, Information, MeanVariance, NearlyWorst, Parameters, Worst
-from elastogeo.planning.choosing.space import Space, row_space, space_of
+from elastogeo.planning.choosing.space import Space, space_of
 from elastogeo.planning.expectations import data_uncertainty
 from elastogeo.planning.families import family_ceiling
 from elastogeo.planning.information import Unknowns, rows_of, unknowns, whitened
@@ -22,6 +22,7 @@ from elastogeo.planning.noise import ReadingNoise
 from elastogeo.planning.offers.candidate import Candidate
 from elastogeo.planning.offers.means import Means
 from elastogeo.planning.proposed import out_of_reach
+from elastogeo.planning.rank import rank_of, row_space
 from elastogeo.planning.result import ToolSupport
 from elastogeo.planning.workspaces import Workspace, workspace
 from elastogeo.prediction import SUPPORTED, unsupported_share
@@ -196,17 +197,17 @@ def needed_to_support(study: Study, taken: Sequence[int], tool: int | None) -> i
 def highest_rank(study: Study) -> int:
     """Directions that any tests of the kinds of these candidates tell, with these tools: at least what all of them do."""
     machine = study.means.machine
-    found = row_space(study.told(range(len(study.offered)))).shape[1]
+    found = rank_of(study.told(range(len(study.offered))))
     kinds: dict[type, list[Candidate]] = {}
     for one in study.offered:
         kinds.setdefault(type(one.test.setup), []).append(one)
     some = [one.test for own in kinds.values() for one in own[:OF_A_KIND]]
     family = family_of(machine, [run for test in some for run in test.observations()])
     if family is None or study.made:
-        return int(found)
+        return found
     held = {} if study.means.rotary else dict.fromkeys(study.means.turnable, 0.0)
     reciprocal = len(study.asked.sources) < len(unknowns(machine).sources)
-    return max(int(found), family_ceiling(machine, family, study.means.tool_points, reciprocal, held).rank)
+    return max(found, family_ceiling(machine, family, study.means.tool_points, reciprocal, held).rank)
 
 
 def support_of(study: Study, taken: Sequence[int]) -> tuple[ToolSupport, ...]:

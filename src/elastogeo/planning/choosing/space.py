@@ -14,14 +14,12 @@ import numpy as np
 
 from elastogeo.errors import UnsupportedError
 from elastogeo.machine import Array
+from elastogeo.planning.rank import row_space
 
 Numbers = np.ndarray[tuple[int], np.dtype[np.intp]]
 
 LENGTHS = (6, 10, 20, 40)
 """Numbers of rows at which a stack ends: what is stacked is filled with zeros, which cost as much as rows."""
-
-RANK = 1e-9
-"""Singular values smaller than this part of the greatest are rounding error: nothing was found within four orders of it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -116,20 +114,3 @@ def _stacked(rows: Sequence[Array]) -> Iterator[Stack]:
             for k, number in enumerate(numbers):
                 filled[k, : lengths[number]] = rows[int(number)]
             yield Stack(numbers, filled)
-
-
-def row_space(rows: Array) -> Array:
-    """Orthonormal basis of the row space, shape (p, r).
-
-    LAPACK's `gesdd` once did not converge on finite rows; `gesvd` does where it does not.
-    """
-    if not rows.size or not rows.any():
-        return np.zeros((rows.shape[1], 0))
-    triangle = np.linalg.qr(rows, mode="r") if len(rows) > rows.shape[1] else rows
-    try:
-        _, values, turns = np.linalg.svd(triangle, full_matrices=False)
-    except np.linalg.LinAlgError:
-        from scipy.linalg import svd  # here: hardly ever needed
-
-        _, values, turns = svd(triangle, full_matrices=False, lapack_driver="gesvd")
-    return np.asarray(turns[values > RANK * values[0]].T)
