@@ -8,11 +8,14 @@ import pytest
 import elastogeo as eg
 from elastogeo.machine import Joint, Machine
 from elastogeo.planning import Means, ReadingNoise, unknowns, whitened
+from elastogeo.planning.choosing.choice import extended
+from elastogeo.planning.choosing.space import space_of
 from elastogeo.prediction import parameter_scales
 from elastogeo.sources import Source
 from studies.plans import Judge, best_of_random, exhaustive_information, hermle, judge, three_axes
 
 GOALS = ("information", "parameters", "workspace")
+OF_TWO_TOOLS = Means(hermle(), readings=16, tools=((0.0, 0.0, -160.0), (0.0, 0.0, -300.0)))
 
 
 @pytest.fixture(scope="module")
@@ -62,11 +65,24 @@ def test_held_rotary_axes_do_not_promise_moving_ones(five: Judge) -> None:
 
 def test_a_plan_for_one_tool_does_not_promise_another(five: Judge) -> None:
     """Trap: supported at the tool that the tests have, not at one that is longer."""
-    means = Means(hermle(), readings=16, tools=((0.0, 0.0, -160.0), (0.0, 0.0, -300.0)))
-    plan = eg.plan(means, tests=8, chosen_from=five.offered)
+    plan = eg.plan(OF_TWO_TOOLS, tests=8, chosen_from=five.offered)
     assert plan.tools[0].share == 1.0
     assert plan.tools[1].share < 0.2
-    assert plan.tools[1].tests_needed is None
+    assert [tool.more_needed for tool in plan.tools] == [0, None]
+
+
+def test_what_each_tool_needs_is_counted_apart(five: Judge) -> None:
+    """Test by test, from nothing and beside a plan: the first set that the judge's own measure says supports its tool."""
+    plan = eg.plan(OF_TWO_TOOLS, tests=3, chosen_from=five.offered)
+    space = space_of(whitened([one.test for one in five.offered], unknowns(hermle()), ReadingNoise()), [])
+    minutes = np.array([one.minutes for one in five.offered])
+    alone, beside = (
+        next(len(sets) for sets in extended(space, start, minutes, 20) if sets and five.supported(sets).all())
+        for start in ([], five.number(plan))
+    )
+    assert [tool.tests_needed for tool in plan.tools] == [alone, None]
+    assert [tool.more_needed for tool in plan.tools] == [beside - 3, None]
+    assert plan.fewest is None
 
 
 def in_other_units(machine: Machine, length: float) -> Machine:

@@ -23,7 +23,7 @@ from elastogeo.planning.proposed import out_of_reach, proposed_for, reasons_for
 from elastogeo.planning.rank import rank_of
 from elastogeo.planning.reasons import Reason
 from elastogeo.planning.result import NextBest, Plan, PlannedTest
-from elastogeo.planning.study import Study, chosen_of, goals_of, highest_rank, needed_to_support, study_of, support_of
+from elastogeo.planning.study import Study, chosen_of, goals_of, highest_rank, study_of, support_of
 from elastogeo.planning.verdict import verdict_of
 from elastogeo.sources import select_sources
 
@@ -153,7 +153,7 @@ def _answer(
         parameters=parameters,
         rank=rank,
         highest_rank=highest_rank(study),
-        fewest=needed_to_support(study, [], None),
+        fewest=study.needed[0],
         reasons=reasons,
         weak=weak,
         tools=support,

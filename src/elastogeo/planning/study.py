@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import inf
 
 import numpy as np
@@ -41,7 +42,7 @@ MOST_TESTS = 60
 """Tests after which nothing more is added to support the workspace."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Study:
     """What candidates tell of one machine.
 
@@ -84,6 +85,11 @@ class Study:
         seen = row_space(self.told(taken))
         scales = np.ones(len(self.asked.sources))
         return np.asarray(unsupported_share(self.judging.functionals, seen, scales) < SUPPORTED)
+
+    @cached_property
+    def needed(self) -> tuple[int | None, ...]:
+        """How many tests support the whole workspace, then that of each tool: `needed_to_support` from nothing."""
+        return needed_to_support(self, [])
 
     def worst_with_prior(self, taken: Sequence[int]) -> float:
         """Greatest standard uncertainty [mm/N] in the judging workspace with the stated prior."""
@@ -135,7 +141,7 @@ def chosen_of(
     if tests is None and minutes is None and names:
         tests = needed_for(study, names)
     if tests is None and minutes is None:
-        tests = needed_to_support(study, [], None)
+        tests = study.needed[0]
         if tests is None:
             raise UnsupportedError(
                 f"all {len(study.offered)} candidates together do not support the compliance everywhere in the volume for "
@@ -182,16 +188,24 @@ def needed_for(study: Study, names: Sequence[str]) -> int | None:
     return None
 
 
-def needed_to_support(study: Study, taken: Sequence[int], tool: int | None) -> int | None:
-    """How many tests, the taken ones first, support the workspace (of one tool); None if the candidates cannot."""
-    here = np.full(len(study.judging.tool), True) if tool is None else study.judging.tool == tool
+def needed_to_support(study: Study, taken: Sequence[int]) -> tuple[int | None, ...]:
+    """How many tests, the taken ones first, support the whole workspace, then that of each tool.
+
+    None where all candidates together do not, and where `MOST_TESTS` are too few.
+    """
+    tool = study.judging.tool
+    places = [np.full(len(tool), True), *(tool == k for k in range(len(study.means.tool_points)))]
     everything = study.supported(range(len(study.offered)))
-    if not everything[here].all():
-        return None
+    left = {k for k, here in enumerate(places) if everything[here].all()}
+    needed: dict[int, int] = {}
     for count, so_far in enumerate(extended(study.space, taken, study.minutes, MOST_TESTS), start=len(taken)):
-        if count and study.supported(so_far)[here].all():
-            return count
-    return None
+        supported = study.supported(so_far)
+        done = {k for k in left if count and supported[places[k]].all()}
+        needed |= dict.fromkeys(done, count)
+        left -= done
+        if not left:
+            break
+    return tuple(needed.get(k) for k in range(len(places)))
 
 
 def highest_rank(study: Study) -> int:
@@ -216,11 +230,11 @@ def support_of(study: Study, taken: Sequence[int]) -> tuple[ToolSupport, ...]:
     uncertainty = data_uncertainty(rows, study.judging.functionals)
     inside, outside = study.space.projected(study.judging.functionals)
     with_prior = np.sqrt(Worst(inside, outside).variances(covariance_of(study.space, taken)))
+    more = [None if count is None else count - len(taken) for count in needed_to_support(study, taken)]
     found = []
     for k, tool in enumerate(study.means.tool_points):
         here = study.judging.tool == k
         known = np.flatnonzero(here & supported)
-        more = needed_to_support(study, taken, k)
         at = int(known[np.argmax(uncertainty[known])]) if len(known) else int(np.argmax(np.where(here, with_prior, -1.0)))
         found.append(
             ToolSupport(
@@ -230,8 +244,8 @@ def support_of(study: Study, taken: Sequence[int]) -> tuple[ToolSupport, ...]:
                 worst=float(uncertainty[at]) if len(known) else None,
                 worst_with_prior=float(with_prior[here].max()),
                 worst_at=dict(zip(study.means.machine.axes, map(float, study.judging.commands[at]), strict=True)),
-                tests_needed=needed_to_support(study, [], k),
-                more_needed=None if more is None else more - len(taken),
+                tests_needed=study.needed[1 + k],
+                more_needed=more[1 + k],
             )
         )
     return tuple(found)
