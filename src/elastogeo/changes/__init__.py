@@ -6,12 +6,15 @@ no page. `history` keeps the series and acts on the verdicts, `report` shows the
 
 from elastogeo.changes.causes import Cause, Signatures
 from elastogeo.changes.change_points import ChangePoint
+from elastogeo.changes.charts import Charts, Judged, Running, start, step
 from elastogeo.changes.drifts import Drift
 from elastogeo.changes.due_dates import DUE, NEVER_TESTED, NOT_ASKED, NOT_DUE, OVERDUE, DueDate, due_after, due_on
 from elastogeo.changes.events import Event, OpenAlarm
 from elastogeo.changes.fleets import MACHINE_STATES, FleetState, MachineRow, MachineState
 from elastogeo.changes.instruments import InstrumentMove
 from elastogeo.changes.kinds import KINDS, Kind
+from elastogeo.changes.priors import Prior, default_prior, fleet_prior
+from elastogeo.changes.references import Reference, reference_from, reference_of
 from elastogeo.changes.result import (
     ALARM,
     DRIFT,
@@ -25,6 +28,7 @@ from elastogeo.changes.result import (
     IndicatorState,
     Step,
 )
+from elastogeo.changes.rules import Rule
 from elastogeo.changes.series import Baseline, Indicator, Series, Tolerance
 
 __all__ = [
@@ -47,6 +51,7 @@ __all__ = [
     "Cause",
     "ChangePoint",
     "ChangeVerdict",
+    "Charts",
     "Drift",
     "DueDate",
     "Event",
@@ -54,14 +59,25 @@ __all__ = [
     "Indicator",
     "IndicatorState",
     "InstrumentMove",
+    "Judged",
     "Kind",
     "MachineRow",
     "MachineState",
     "OpenAlarm",
+    "Prior",
+    "Reference",
+    "Rule",
+    "Running",
     "Series",
     "Signatures",
     "Step",
     "Tolerance",
+    "default_prior",
     "due_after",
     "due_on",
+    "fleet_prior",
+    "reference_from",
+    "reference_of",
+    "start",
+    "step",
 ]

@@ -1,0 +1,179 @@
+"""What a test is held against: the mean of the baseline, the scatter between tests, what the temperature does.
+
+The baseline is frozen: a reference that learns from the tests that it judges learns a change as normal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from elastogeo.changes.priors import Prior, default_prior
+from elastogeo.changes.series import Baseline, Series
+from elastogeo.equality import ByValue
+from elastogeo.errors import InputError, several
+from elastogeo.machine import Array
+
+Marks = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+
+LEAST_TEMPERATURES = 8
+"""Tests of a baseline with a temperature below which no slope is taken from them."""
+
+LEAST_RANGE = 3.0
+"""Spread [K], from the coldest to the warmest, below which no slope is taken."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reference(ByValue):
+    """What tests are judged by, of q indicators; further axes before are machines.
+
+    Attributes
+    ----------
+    mean : array, shape (..., q)
+        Of the baseline, at its mean temperature where there is a slope; NaN where no test of it determines the indicator.
+    deviation : array, shape (..., q)
+        Standard deviation between tests, shrunk to the prior, never below the uncertainty that the tests state.
+    degrees_of_freedom : array, shape (..., q)
+        Of it.
+    count : array, shape (..., q)
+        Tests of the baseline that determine the indicator.
+    relevance : array, shape (..., q)
+        Least change that matters, in the units of the kinds.
+    slope : array, shape (..., q) [1/K]
+        What a kelvin changes; 0 where the baseline does not tell it.
+    temperature : array, shape (..., q) [degC]
+        Mean of the baseline; 0 where there is no slope.
+    spread : array, shape (..., q) [K^2]
+        Sum of squares about it: what the leverage of a temperature counts on. Infinite where there is no slope.
+    unknown : array, shape (..., q)
+        Standard deviation that the temperatures of the baseline made: how far off a test may be without one.
+    """
+
+    mean: Array
+    deviation: Array
+    degrees_of_freedom: Array
+    count: Array
+    relevance: Array
+    slope: Array
+    temperature: Array
+    spread: Array
+    unknown: Array
+
+
+def reference_of(
+    series: Series,
+    baseline: Baseline,
+    prior: Prior | None = None,
+    relevance: Mapping[str, float] | None = None,
+) -> Reference:
+    """The reference of a series from the tests of its baseline that are not set aside.
+
+    Parameters
+    ----------
+    series : Series
+    baseline : Baseline
+    prior : Prior, optional
+        Of a fleet; what it does not know (NaN), and all if there is none, is the kind's own.
+    relevance : mapping of str to float, optional
+        By indicator, in its unit, in place of the kind's.
+
+    Raises
+    ------
+    InputError
+        If the baseline names a test that the series does not have, or the relevance an indicator.
+    """
+    place = {name: k for k, name in enumerate(series.tests)}
+    if lost := [name for name in baseline.tests if name not in place]:
+        raise InputError(f"the baseline of {series.name} names tests that the series does not have: {several(lost)}")
+    given = dict(relevance or {})
+    if lost := sorted(given.keys() - set(series.indicators)):
+        raise InputError(f"{series.name} has no indicator {several(lost)}; it has {several(series.indicators)}")
+    rows = [place[name] for name in baseline.tests if not series.aside[place[name]]]
+    value, u = series.value[rows], series.standard_uncertainty[rows]
+    least = np.array([kind.relevance for kind in series.kinds])
+    relative = np.array([kind.relative for kind in series.kinds], dtype=bool)
+    own = default_prior(series.kinds, _mean(value, np.isfinite(value)))
+    if prior is not None:
+        own = Prior(
+            np.where(np.isfinite(prior.degrees_of_freedom), prior.degrees_of_freedom, own.degrees_of_freedom),
+            np.where(np.isfinite(prior.deviation), prior.deviation, own.deviation),
+        )
+    found = reference_from(value, own, u, series.temperature[rows])
+    least = least * np.where(relative, np.abs(found.mean), 1.0)
+    least = np.array([given.get(name, floor) for name, floor in zip(series.indicators, least, strict=True)])
+    return replace(found, relevance=least)
+
+
+def reference_from(
+    value: Array, prior: Prior, standard_uncertainty: Array | None = None, temperature: Array | None = None
+) -> Reference:
+    """The reference from the values of baselines, without a least change that matters.
+
+    Parameters
+    ----------
+    value : array, shape (..., m, q)
+        Of m tests; NaN where a test does not determine an indicator.
+    prior : Prior
+        In the same units.
+    standard_uncertainty : array, shape (..., m, q), optional
+        By each test; NaN or infinite where it is not known.
+    temperature : array, shape (..., m) [degC], optional
+        NaN where it is not known.
+
+    Notes
+    -----
+    s^2 = (nu0 s0^2 + nu s_b^2) / (nu0 + nu), where nu is m - 1, or m - 2 with a slope; never below the mean u^2.
+    """
+    shown = np.isfinite(value)
+    m = np.sum(shown, axis=-2).astype(float)
+    mean = _mean(value, shown)
+    warm = _temperatures(shown, temperature)
+    centre = _mean(warm, shown)
+    off = np.where(shown, warm - centre[..., np.newaxis, :], 0.0)
+    spread = np.sum(off**2, axis=-2)
+    used = _tells_slope(shown, warm)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        slope = np.where(used, np.sum(off * np.where(shown, value, 0.0), axis=-2) / spread, 0.0)
+    by_warmth = np.where(used[..., np.newaxis, :], slope[..., np.newaxis, :] * off, 0.0)
+    left = np.where(shown, value - mean[..., np.newaxis, :] - by_warmth, 0.0)
+    own = np.maximum(m - 1 - used, 0.0)
+    worth = prior.degrees_of_freedom + own
+    variance = (prior.degrees_of_freedom * prior.deviation**2 + np.sum(left**2, axis=-2)) / worth
+    if standard_uncertainty is not None:
+        stated = _mean(standard_uncertainty**2, shown & np.isfinite(standard_uncertainty))
+        variance = np.maximum(variance, np.nan_to_num(stated))
+    scatter = np.sqrt(np.where(used, spread, 0.0) / np.maximum(m - 1, 1.0))
+    return Reference(
+        mean,
+        np.sqrt(variance),
+        worth,
+        m,
+        np.zeros(m.shape),
+        slope,
+        np.where(used, centre, 0.0),
+        np.where(used, spread, np.inf),
+        np.abs(slope) * scatter,
+    )
+
+
+def _mean(value: Array, shown: Marks) -> Array:
+    number = np.sum(shown, axis=-2)
+    total = np.sum(np.where(shown, value, 0.0), axis=-2)
+    return np.where(number > 0, total / np.maximum(number, 1), np.nan)
+
+
+def _temperatures(shown: Marks, temperature: Array | None) -> Array:
+    """Of each value; NaN where it is not known."""
+    if temperature is None:
+        return np.full(shown.shape, np.nan)
+    return np.broadcast_to(np.asarray(temperature)[..., np.newaxis], shown.shape)
+
+
+def _tells_slope(shown: Marks, warm: Array) -> Marks:
+    """Whether all tests of the baseline have a temperature, they are enough, and far enough apart."""
+    known = ~np.any(shown & np.isnan(warm), axis=-2)
+    span = np.max(np.where(shown, warm, -np.inf), axis=-2) - np.min(np.where(shown, warm, np.inf), axis=-2)
+    tells: Marks = known & (np.sum(shown, axis=-2) >= LEAST_TEMPERATURES) & (span >= LEAST_RANGE)
+    return tells
