@@ -77,7 +77,7 @@ def reference_of(
     prior : Prior, optional
         Of a fleet; what it does not know (NaN), and all if there is none, is the kind's own.
     relevance : mapping of str to float, optional
-        By indicator, in its unit, in place of the kind's.
+        By indicator, in place of the kind's: a share of the mean where the kind is relative, otherwise in its unit.
 
     Raises
     ------
@@ -92,7 +92,8 @@ def reference_of(
         raise InputError(f"{series.name} has no indicator {several(lost)}; it has {several(series.indicators)}")
     rows = [place[name] for name in baseline.tests if not series.aside[place[name]]]
     value, u = series.value[rows], series.standard_uncertainty[rows]
-    least = np.array([kind.relevance for kind in series.kinds])
+    named = zip(series.indicators, series.kinds, strict=True)
+    least = np.array([given.get(name, kind.relevance) for name, kind in named])
     relative = np.array([kind.relative for kind in series.kinds], dtype=bool)
     own = default_prior(series.kinds, _mean(value, np.isfinite(value)))
     if prior is not None:
@@ -101,9 +102,7 @@ def reference_of(
             np.where(np.isfinite(prior.deviation), prior.deviation, own.deviation),
         )
     found = reference_from(value, own, u, series.temperature[rows])
-    least = least * np.where(relative, np.abs(found.mean), 1.0)
-    least = np.array([given.get(name, floor) for name, floor in zip(series.indicators, least, strict=True)])
-    return replace(found, relevance=least)
+    return replace(found, relevance=least * np.where(relative, np.abs(found.mean), 1.0))
 
 
 def reference_from(
