@@ -42,6 +42,14 @@ class SelectionError(InputError):
     """A name or pattern selects nothing, or nothing that exists."""
 
 
+class DeliveryError(ElastogeoError):
+    """A message could not be delivered; `lasting` if trying again cannot help."""
+
+    def __init__(self, message: str, lasting: bool = False) -> None:
+        super().__init__(message)
+        self.lasting = lasting
+
+
 class UnsupportedError(ElastogeoError):
     """The data do not support what was asked of them."""
 

@@ -1,0 +1,131 @@
+"""The life of an alarm: what the charts say and what has happened so far -> the steps that it takes now. Pure.
+
+quiet -> (suspect: only the tester knows) -> open -> worse, acknowledged -> closed by a person, as repaired or as false. A
+series has one open alarm; further indicators join it. Charts that turn quiet again close nothing: a person does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+from typing import Any
+
+OPEN = "open"
+WORSE = "worse"
+HELD = "held"
+RELEASED = "released"
+ACKNOWLEDGED = "acknowledged"
+REPAIRED = "closed as repaired"
+FALSE = "closed as false"
+CLOSED = (REPAIRED, FALSE)
+
+WORSE_BY = 0.5
+"""Limits by which an indicator must grow beyond what was last recorded of it, for the alarm to be worse."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A step that an alarm takes or has taken.
+
+    Attributes
+    ----------
+    state : str
+        `OPEN`, `WORSE`, `HELD`, `RELEASED`, `ACKNOWLEDGED`, `REPAIRED` or `FALSE`.
+    facts : mapping
+        `over`: by indicator, how many limits it was away, at this step.
+    test : int or None
+        Key of the test that caused it; None for a person's step.
+    at : datetime or None
+        When it was taken; None while it is only proposed.
+    who, why : str
+        Of a person's step.
+    """
+
+    state: str
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    test: int | None = None
+    at: datetime | None = None
+    who: str = ""
+    why: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What the charts of a series say at their last test.
+
+    Attributes
+    ----------
+    alarming : bool
+        Whether its state is an alarm: confirmed, or not confirmed within the wait.
+    over : mapping of str to float
+        By indicator that is beyond its limit, how many limits; what one test alone says is not in it before the next or a
+        repeat says so too.
+    test : int or None
+        Key of the last judged test.
+    measured : datetime or None
+        When that was made.
+    confirmed : bool or None
+        Whether a repeat confirmed it; None if there was none within the wait.
+    """
+
+    alarming: bool
+    over: Mapping[str, float] = field(default_factory=dict)
+    test: int | None = None
+    measured: datetime | None = None
+    confirmed: bool | None = None
+
+
+def is_open(steps: Sequence[Step]) -> bool:
+    """Whether an alarm with these steps still waits for a person to close it."""
+    return bool(steps) and steps[-1].state not in CLOSED
+
+
+def is_held(steps: Sequence[Step]) -> bool:
+    """Whether the alarm of an instrument holds it back."""
+    last = [step.state for step in steps if step.state in (HELD, RELEASED)]
+    return last[-1:] == [HELD]
+
+
+def is_acknowledged(steps: Sequence[Step]) -> bool:
+    """Whether a person knows of it as it is now: it has not become worse since."""
+    told = [step.state for step in steps if step.state in (OPEN, WORSE, ACKNOWLEDGED)]
+    return is_open(steps) and told[-1:] == [ACKNOWLEDGED]
+
+
+def recorded(steps: Iterable[Step]) -> dict[str, float]:
+    """The most that the steps say of each indicator, in limits."""
+    most: dict[str, float] = {}
+    for step in steps:
+        for name, ratio in step.facts.get("over", {}).items():
+            most[name] = max(most.get(name, 0.0), float(ratio))
+    return most
+
+
+def steps_of(found: Found, alarm: Sequence[Step] = (), cleared: datetime | None = None) -> tuple[Step, ...]:
+    """The steps that a verdict adds to the alarm of its series: none, one that opens it, or one that makes it worse.
+
+    Parameters
+    ----------
+    found : Found
+        What the charts say now.
+    alarm : sequence of Step
+        Of the alarm that is open, oldest first; empty if none is.
+    cleared : datetime or None
+        When the last alarm of the series was closed: what was measured up to then opens no other.
+
+    Returns
+    -------
+    tuple of Step
+        The same verdict again gives none: what is recorded is not told twice.
+    """
+    if not found.alarming:
+        return ()
+    facts = {"over": dict(found.over), "confirmed": found.confirmed}
+    if not is_open(alarm):
+        if cleared is not None and (found.measured is None or found.measured <= cleared):
+            return ()
+        return (Step(OPEN, facts, found.test),)
+    before = recorded(alarm)
+    grown = [name for name, ratio in found.over.items() if ratio >= max(before.get(name, 1.0), 1.0) + WORSE_BY]
+    return (Step(WORSE, facts | {"grown": sorted(grown)}, found.test),) if grown else ()
