@@ -1,8 +1,8 @@
 """The channel `webhook`: the message as JSON, posted to an address of the web.
 
 https only; no redirects; no address of a private network, of this computer or of a link. `ELASTOGEO_WEBHOOK_PRIVATE=yes`
-lets private addresses and http be used, for a server in the same house. With `ELASTOGEO_WEBHOOK_SECRET` each message is signed:
-`X-Elastogeo-Signature: t=TIME,v1=HEX`, the HMAC-SHA256 of `TIME.` and the body.
+lets private addresses and http be used, for a server in the same house. With `ELASTOGEO_WEBHOOK_SECRET` each message is
+signed: `X-Elastogeo-Signature: t=TIME,v1=HEX`, the HMAC-SHA256 of `TIME.` and the body.
 """
 
 from __future__ import annotations
