@@ -50,6 +50,10 @@ class DeliveryError(ElastogeoError):
         self.lasting = lasting
 
 
+class StoreError(InputError):
+    """The history cannot be opened, read or written."""
+
+
 class UnsupportedError(ElastogeoError):
     """The data do not support what was asked of them."""
 

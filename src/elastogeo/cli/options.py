@@ -41,6 +41,9 @@ Robust = Annotated[bool, typer.Option("--robust", help="Let outlying readings co
 
 STORE = "history.db"
 """Where the history is if nothing else is said: a file in the folder that one is in."""
+Who = Annotated[
+    str, typer.Option("--who", envvar="ELASTOGEO_WHO", help="Who does this, for the audit trail; else who is logged in.")
+]
 
 
 def reference_level(given: str) -> float | Literal["test", "none"]:

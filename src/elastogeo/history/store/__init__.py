@@ -1,1 +1,28 @@
 """The ground of the history: its tables, how a database is opened and migrated, the raw files, the audit trail."""
+
+from typing import TYPE_CHECKING, Any
+
+from elastogeo.discovery import first_use
+from elastogeo.history.extra import needs_history_extra
+
+if TYPE_CHECKING:
+    from elastogeo.history.store.clock import now
+    from elastogeo.history.store.files import Files
+    from elastogeo.history.store.opening import Store, open_store, read, write
+
+_found = first_use(
+    __name__,
+    {
+        "clock": "now",
+        "files": "Files",
+        "opening": "Store open_store read write",
+    },
+)
+
+__all__ = ["Files", "Store", "now", "open_store", "read", "write"]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a name of the face where it is used first (PEP 562)."""
+    with needs_history_extra():
+        return _found(name)

@@ -303,10 +303,10 @@ audit = Table(
 audit_head = Table(
     "audit_head",
     metadata,
-    Column("only", Integer, primary_key=True),
+    Column("id", Integer, primary_key=True, autoincrement=False),
     Column("number", Key, nullable=False),
     Column("sha256", Text, nullable=False),
-    CheckConstraint("only = 1", name="only"),
+    CheckConstraint("id = 1", name="only"),
 )
 
 FROZEN = (

@@ -1,0 +1,137 @@
+"""The store: an open history, and its two kinds of transactions."""
+
+from __future__ import annotations
+
+import weakref
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+
+from sqlalchemy import Connection, Engine, text
+
+from elastogeo.errors import StoreError
+from elastogeo.history.store import audit
+from elastogeo.history.store.files import Files
+from elastogeo.history.store.migrations import check_revision, upgrade
+from elastogeo.history.store.place import Place, place_of
+from elastogeo.history.store.postgresql import LOCK, server_engine
+from elastogeo.history.store.refusals import in_words
+from elastogeo.history.store.sqlite import check_drive, driver, sqlite_engine
+
+
+@dataclass(frozen=True, slots=True, weakref_slot=True, eq=False)
+class Store:
+    """An open history.
+
+    Attributes
+    ----------
+    engine : Engine
+    files : Files
+    url : str
+        As it is shown: without a password.
+    """
+
+    engine: Engine
+    files: Files
+    url: str
+
+    def close(self) -> None:
+        """Let go of the database; it opens again by itself when it is used."""
+        self.engine.dispose()
+
+    def __enter__(self) -> Store:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+
+def open_store(url: str | Path, create: bool = False, *, files: str | Path | None = None, who: str = "") -> Store:
+    """Open a history.
+
+    Parameters
+    ----------
+    url : str or Path
+        A file of SQLite (`history.db`, `sqlite:///history.db`) or `postgresql://user@host/database`.
+    create : bool
+        Make it if it is not there, and migrate it to the schema of this version.
+    files : str or Path, optional
+        The folder of the raw files: `history.db.files` beside a file of SQLite; for PostgreSQL it is needed, here or in the
+        variable ELASTOGEO_FILES.
+    who : str
+        Who makes or migrates it, for the audit trail; who is logged in by default.
+
+    Raises
+    ------
+    StoreError
+        If it is not there, lies on a network drive, cannot be reached, or has another schema.
+    """
+    place = place_of(url, files)
+    engine = _engine(place, create)
+    store = Store(engine, Files(place.files), place.url)
+    weakref.finalize(store, engine.dispose)
+    if create:
+        with _writing(store, migrates=True) as connection:
+            upgrade(connection, place.url, who or audit.login())
+    else:
+        with read(store) as connection:
+            check_revision(connection, place.url)
+    store.files.sweep()
+    return store
+
+
+@contextmanager
+def write(store: Store) -> Iterator[Connection]:
+    """A transaction that writes: one writer at a time, all or nothing.
+
+    Raises
+    ------
+    StoreError
+        If another program writes for too long, the disk is full or fails, or the database cannot be reached.
+    """
+    with _writing(store) as connection:
+        yield connection
+
+
+@contextmanager
+def read(store: Store) -> Iterator[Connection]:
+    """A transaction that reads: one consistent state, whatever others write meanwhile."""
+    with in_words(store.url, writes=False), store.engine.connect() as connection:
+        if connection.dialect.name == "postgresql":
+            connection.execution_options(isolation_level="REPEATABLE READ", postgresql_readonly=True)
+        with connection.begin():
+            yield connection
+
+
+@contextmanager
+def _writing(store: Store, migrates: bool = False) -> Iterator[Connection]:
+    with in_words(store.url, writes=True), store.engine.connect() as connection:
+        connection.execution_options(writes=True, migrates=migrates)
+        with connection.begin():
+            if connection.dialect.name == "postgresql":
+                connection.execute(text("SELECT pg_advisory_xact_lock(:lock)"), {"lock": LOCK})
+            yield connection
+
+
+def _engine(place: Place, create: bool) -> Engine:
+    if place.server is not None:
+        return server_engine(place.server)
+    assert place.file is not None
+    if not place.file.is_file():
+        if not create:
+            raise StoreError(
+                f"{place.url}: there is no history here; make one with: elastogeo history init {place.url}; "
+                "or name yours with --store or in the variable ELASTOGEO_STORE"
+            )
+        _check_place(place.file)
+    check_drive(place.file)
+    return sqlite_engine(place.file, driver())
+
+
+def _check_place(file: Path) -> None:
+    if file.is_dir():
+        raise StoreError(f"{file}: is a folder; name a file in it, such as {file / 'history.db'}")
+    if not file.parent.is_dir():
+        raise StoreError(f"{file}: there is no folder {file.parent}; make it first")

@@ -1,0 +1,13 @@
+"""PostgreSQL: how a server is reached."""
+
+from __future__ import annotations
+
+from sqlalchemy import URL, Engine, create_engine
+
+LOCK = 0x656C6173746F
+"""The advisory lock of whoever writes a history: one at a time, as on SQLite."""
+
+
+def server_engine(server: URL) -> Engine:
+    """The engine of a database; a connection that was cut while it rested is made again."""
+    return create_engine(server, pool_size=4, pool_pre_ping=True, connect_args={"connect_timeout": 10})
