@@ -8,6 +8,7 @@ import sys
 
 import pytest
 
+from elastogeo.cli import main
 from elastogeo.cli.doors import ORDER, Group, doors, every
 from elastogeo.formats import example_test
 
@@ -187,3 +188,11 @@ def test_a_group_without_a_command_shows_its_commands(elastogeo):
     assert code == 2
     assert "Usage: elastogeo history [OPTIONS] COMMAND" in out + err
     assert "\n  list " in out + err
+
+
+def test_linear_algebra_has_one_thread_unless_the_user_says_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("os.environ", {**os.environ, "OMP_NUM_THREADS": "3"})
+    os.environ.pop("OPENBLAS_NUM_THREADS", None)
+    monkeypatch.setattr("sys.argv", ["elastogeo", "--version"])
+    assert main() == 0
+    assert (os.environ["OPENBLAS_NUM_THREADS"], os.environ["OMP_NUM_THREADS"]) == ("1", "3")

@@ -7,6 +7,7 @@ one clear error on standard error.
 from __future__ import annotations
 
 import gc
+import os
 import sys
 from collections.abc import Iterable
 from typing import Annotated, Any
@@ -77,6 +78,8 @@ def _options(
 
 def main() -> int:
     """Run the command line; return the exit code."""
+    for library in ("OPENBLAS", "MKL", "OMP"):  # before numpy: on matrices of this size threads wait more than they work
+        os.environ.setdefault(f"{library}_NUM_THREADS", "1")
     gc.set_threshold(50_000)  # what a command makes lives to its end: looking for garbage takes a tenth of its time
     try:
         application(*sys.argv[1:3])()

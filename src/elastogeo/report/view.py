@@ -257,11 +257,12 @@ def attention_sentence(checks: Iterable[Check]) -> str:
 
 
 def _view_files(kind: type) -> Iterator[str]:
-    """The files of views; first those of the wing that is called like the wing or the room of this type of result."""
+    """The files of views; first those of the wing that is called like the wing or the room of this type of result, and of
+    a wing its `view.py`: what is not read is not imported.
+    """
     package, home = import_module(__name__.rpartition(".")[0]), kind.__module__.split(".")
     wings = [wing.name for wing in iter_modules(package.__path__, f"{package.__name__}.") if wing.ispkg]
     places = {wing: home.index(last) for wing in wings if (last := wing.rpartition(".")[2]) in home}
     for wing in sorted(wings, key=lambda wing: -places.get(wing, -1)):
-        for file in iter_modules(import_module(wing).__path__, f"{wing}."):
-            if file.name.endswith(("view", "_view")):
-                yield file.name
+        files = (file.name for file in iter_modules(import_module(wing).__path__, f"{wing}."))
+        yield from sorted((file for file in files if file.endswith("view")), key=lambda file: not file.endswith(".view"))
