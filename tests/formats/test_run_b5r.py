@@ -49,7 +49,7 @@ def test_one_run_is_read_with_its_angles_and_names() -> None:
         "machine": "C 50",
         "plane": "XY",
         "operator": "A. Nobody",
-        "date": "20240501-120000",
+        "date": "2024-05-01T12:00:00",
         "run": "1",
         "direction": "CCW",
         "AF_CIRCULARITY_mm": "0.0080",

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from elastogeo.formats.documents.simulated_tests import simulate
     from elastogeo.formats.documents.simulations import Simulation, poses_of, read_simulation, write_runs
     from elastogeo.formats.documents.templates import kinds_of_tests, new_test
+    from elastogeo.formats.documents.tests_with_files import TestWithFiles, read_with_files
     from elastogeo.formats.inspection import Inspected, InspectedColumn, inspect_file
     from elastogeo.formats.log import Channel, Log
     from elastogeo.formats.log_files import LogFormat, log_formats, read_log
@@ -95,6 +96,7 @@ __all__ = [
     "Samples",
     "Simulation",
     "Table",
+    "TestWithFiles",
     "Writing",
     "calibration_text",
     "compensation_format",
@@ -137,6 +139,7 @@ __all__ = [
     "read_simulation",
     "read_table",
     "read_test",
+    "read_with_files",
     "run_files_of",
     "run_formats",
     "said_gap",
@@ -170,6 +173,7 @@ __getattr__ = first_use(
         "documents.simulated_tests": "simulate",
         "documents.simulations": "Simulation poses_of read_simulation write_runs",
         "documents.templates": "kinds_of_tests new_test",
+        "documents.tests_with_files": "TestWithFiles read_with_files",
         "inspection": "Inspected InspectedColumn inspect_file",
         "log": "Channel Log",
         "log_files": "LogFormat log_formats read_log",

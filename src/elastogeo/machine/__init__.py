@@ -1,7 +1,7 @@
 """What a machine is: topology, axes, frames, poses to Jacobian columns, batched. Stands on `estimate`, `errors`."""
 
 from elastogeo.estimate import Array
-from elastogeo.machine.about import About
+from elastogeo.machine.about import COLDEST, WARMEST, About
 from elastogeo.machine.commands import Commands, Motion, follow, workpiece_ball
 from elastogeo.machine.cutting.coefficients import COEFFICIENTS, CuttingCoefficients, coefficients_of
 from elastogeo.machine.cutting.cut import Cut
@@ -67,6 +67,7 @@ from elastogeo.machine.weights import Workpiece, weight_loads
 __all__ = [
     "AXIS_ORDER",
     "COEFFICIENTS",
+    "COLDEST",
     "COMPONENTS",
     "DOWN",
     "LINEAR",
@@ -76,6 +77,7 @@ __all__ = [
     "ROTARY",
     "SIDES",
     "SPINDLE",
+    "WARMEST",
     "About",
     "Angle",
     "Arc",

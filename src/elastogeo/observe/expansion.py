@@ -8,14 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, PerLength, Temperature
+from elastogeo.machine import COLDEST, WARMEST, Array, PerLength, Temperature
 from elastogeo.observe.observations import ObservedInfluence
 
 REFERENCE = 20.0
 """Temperature [degC] at which lengths are stated."""
-
-COLDEST, WARMEST = 0.0, 60.0
-"""Temperatures [degC] between which machines are tested."""
 
 MOST_EXPANSION = 1e-4
 """Expansion per kelvin that a machine or a sensor may have: twice that of plastics."""

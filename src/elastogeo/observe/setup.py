@@ -59,6 +59,13 @@ class Setup(ABC):
         What its results rest on and cannot show themselves, as constants for which `report` has the sentences.
     of_instrument : tuple of str
         Parameters of the set-up that go with the instrument from test to test: the length of a bar.
+    knowledge : tuple of str
+        Fields that say what is known of instrument and day, not how the test was made: calibrations, temperatures. Tests
+        that differ only there are comparable, save for `corrections`.
+    corrections : tuple of str
+        Those of `knowledge` that change a result by being given at all.
+    warm : str
+        The field with the `Expansion` of the machine, if there is one.
     template : Template or None
         What a new test begins with.
     """
@@ -69,6 +76,9 @@ class Setup(ABC):
     extra: ClassVar[str] = ""
     limits: ClassVar[tuple[str, ...]] = ()
     of_instrument: ClassVar[tuple[str, ...]] = ()
+    knowledge: ClassVar[tuple[str, ...]] = ()
+    corrections: ClassVar[tuple[str, ...]] = ()
+    warm: ClassVar[str] = ""
     template: ClassVar[Template | None] = None
 
     @property

@@ -14,7 +14,6 @@ verdict : [{name, passed, sentence, decisive}]
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict
 from math import isfinite
 from typing import Any
 
@@ -47,7 +46,7 @@ def tested(test: MachineTest, reference_force: float | None) -> dict[str, Any]:
         "reference_force_N": reference_force,
         "resolution_um": None if test.setup.reads_angles else in_um(test.resolution),
         "runs": len(test.runs),
-        "about": {key: value for key, value in asdict(test.about).items() if value},
+        "about": test.about.said(),
         "files": [
             {"run": run.name, "file": run.file, "sha256": run.sha256, "simulated": run.simulated}
             for run in test.runs

@@ -43,6 +43,7 @@ def about_lines(about: About, instrument: str = "") -> tuple[tuple[str, str], ..
         ("Calibrated", about.instrument_calibrated),
         ("Date", about.date),
         ("Operator", about.operator),
+        ("Temperature of the machine", "" if about.temperature is None else f"{about.temperature:g} °C"),
         ("Place", about.place),
     )
 

@@ -130,7 +130,9 @@ def calibration_text(document: CalibrationDocument) -> str:
         lines += ["", "[setup_compliance]", f"engagement_mm = {list(rollers.engagement)}"]
         lines.append(f"compliance_mm_per_N = {list(rollers.compliance)}")
         lines += _unless(rollers.standard_uncertainty or 0.0, "standard_uncertainty_mm_per_N", 0.0)
-    about = [f"{key} = {_text(value)}" for key in About.__slots__ if (value := getattr(document.about, key))]
+    about = [
+        f"{key} = {_text(value) if isinstance(value, str) else repr(value)}" for key, value in document.about.said().items()
+    ]
     return "\n".join([*lines, *(["", "[about]", *about] if about else []), ""])
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from importlib import resources
 from math import isfinite
 from pathlib import Path
@@ -31,6 +32,7 @@ SCHEMA = "elastogeo.test/1"
 FILE_NAME = "test.toml"
 EXAMPLE = "hermle-c50-reconstructed"
 _SENSES = {"ccw": 1, "cw": -1}
+_DATE = re.compile(r"\d{4}-\d\d-\d\d(T[\d:.]+(Z|[+-]\d\d:\d\d)?)?", re.ASCII)
 
 ReadRun = Callable[[Path], Table]
 
@@ -160,7 +162,7 @@ def read_test(
         simulated=document.simulated or ", ".join(dict.fromkeys(run.simulated for run in runs if run.simulated)),
         reconstructed=document.reconstructed,
         workpiece=document.workpiece,
-        about=document.about,
+        about=_dated(document.about, tables),
     )
 
 
@@ -236,6 +238,14 @@ def _table(document: TestDocument, entry: RunDocument, folder: Path, read: ReadR
             f"{path}: {name} is in % of a rated value; say it under [[channels]], as rated_{kind}, with its unit"
         )
     return found.table
+
+
+def _dated(about: About, tables: Sequence[Table]) -> About:
+    """With the date of the earliest run where the test says none and all run files do."""
+    dates = [table.metadata.get("date", "") for table in tables]
+    if about.date or not all(map(_DATE.fullmatch, dates)):
+        return about
+    return replace(about, date=min(dates))
 
 
 def _check(runs: tuple[Run, ...], file: Path) -> None:

@@ -36,6 +36,7 @@ from elastogeo.formats.recording_files import (
     said_time,
     standing_gaps,
 )
+from elastogeo.formats.text.files_read import noted
 from elastogeo.formats.text.parquet_bytes import can_read, damaged, pyarrow_modules
 from elastogeo.formats.text.table import MAX_COLUMNS
 from elastogeo.formats.text.units import UNITS, check_unit, split_unit
@@ -104,7 +105,7 @@ def read_recording(folder: str | Path, only: Sequence[Path] = ()) -> Log:
         try:
             if path.stat().st_size > MAX_PART:
                 raise FormatError(f"{path}: is larger than {MAX_PART // 1_000_000} MB; no recorder writes such parts")
-            data = path.read_bytes()
+            data = noted(path, path.read_bytes())
         except OSError as error:
             raise FormatError(f"{path}: cannot be opened ({error.strerror}); check its permissions") from None
         part = _part(read_table(data, str(path)), str(path))

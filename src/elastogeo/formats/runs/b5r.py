@@ -53,6 +53,8 @@ _RATE = re.compile(r".*SAMPL.*(RATE|FREQ).*")
 _RADIUS = re.compile(r"NOMINAL_(LENGTH|RADIUS)")
 _FEEDS = (re.compile(r"AF_CALCULATED_FEEDRATE"), re.compile(r"PROGRAMMED_FEEDRATE|FEEDRATE"))
 _TOLD = {"OPERATOR": "operator", "DATE_STARTED": "date", "SERIAL_NUMBER": "serial number", "PART_NUMBER": "part number"}
+_STAMP = re.compile(r"(\d{4})(\d\d)(\d\d)-(\d\d)(\d\d)(\d\d)", re.ASCII)
+"""How these files write a date with its time of day."""
 _NAMED = {("TEST_SPEC", "NAME"): "test", ("MACHINE_TESTED", "NAME"): "machine", ("PLANE", "TEST_PLANE"): "plane"}
 
 
@@ -244,7 +246,7 @@ def _told(root: Element) -> dict[str, str]:
     told: dict[str, str] = {}
     for element in root.walk("RUN_RESULTS", "ANALYSIS"):
         if element.tag in _TOLD and element.text:
-            told.setdefault(_TOLD[element.tag], element.text)
+            told.setdefault(_TOLD[element.tag], _STAMP.sub(r"\1-\2-\3T\4:\5:\6", element.text))
         for (tag, attribute), key in _NAMED.items():
             if element.tag == tag and element.attributes.get(attribute):
                 told.setdefault(key, element.attributes[attribute])

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Protocol, TypeVar
 
 from elastogeo.errors import FormatError
+from elastogeo.formats.text.files_read import noted
 
 HEAD = 65_536
 """Bytes from the beginning of a file that a detector sees."""
@@ -56,7 +57,7 @@ def opened(path: str | Path, source: str) -> bytes:
     """
     try:
         with open(path, "rb") as file:
-            return file.read(MAX_BYTES + 1)
+            return noted(path, file.read(MAX_BYTES + 1))
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise FormatError(f"{source}: cannot be opened ({reason}); check the path and its permissions") from None

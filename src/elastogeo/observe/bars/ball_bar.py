@@ -98,6 +98,12 @@ class LoadedBallBar(OnCircle):
     extra: ClassVar = "circularity"
     limits: ClassVar = ("bar length", "bar calibration", "force calibration", "form of the balls")
     of_instrument: ClassVar = ("E_R0",)
+    knowledge: ClassVar = (
+        "calibration", "setup_deflection", "setup_deflection_uncertainty", "setup_deflection_degrees_of_freedom",
+        "machine_at", "bar_at",
+    )  # fmt: skip
+    corrections: ClassVar = ("setup_deflection", "machine_at", "bar_at")
+    warm: ClassVar = "machine_at"
     template: ClassVar = Template(
         title="Loaded ball bar test",
         setup=_SETUP + CIRCLE,

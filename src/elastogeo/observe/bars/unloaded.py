@@ -66,6 +66,9 @@ class BallBar(OnCircle):
     extra: ClassVar = "circularity"
     limits: ClassVar = ("bar length", "bar calibration", "form of the balls")
     of_instrument: ClassVar = ("E_R0",)
+    knowledge: ClassVar = ("machine_at", "bar_at")
+    corrections: ClassVar = ("machine_at", "bar_at")
+    warm: ClassVar = "machine_at"
     template: ClassVar = Template(
         title="Ball bar test",
         setup="[setup]\nfeed_mm_min = 1000\n\n" + CIRCLE,

@@ -144,6 +144,9 @@ class Positioning(Setup):
     loads: ClassVar = False
     extra: ClassVar = "positioning"
     limits: ClassVar = ("position sensor",)
+    knowledge: ClassVar = ("axis_at", "sensor_at")
+    corrections: ClassVar = ("axis_at", "sensor_at")
+    warm: ClassVar = "axis_at"
     template: ClassVar = Template(
         title="Positioning test",
         setup=_SETUP,

@@ -132,6 +132,8 @@ class BallRoller(OnCircle):
 
     extra: ClassVar = "stiffness-map"
     limits: ClassVar = ("touching radius", "motor constants", "set-up compliance", "slow motion")
+    knowledge: ClassVar = ("drives", "setup", "balances")
+    corrections: ClassVar = ("setup", "balances")
     template: ClassVar = TEMPLATE
 
     def __post_init__(self) -> None:

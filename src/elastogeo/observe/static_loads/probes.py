@@ -103,6 +103,7 @@ class DisplacementProbes(Setup):
 
     extra: ClassVar = "cartesian-stiffness"
     limits: ClassVar = ("force", "sensor")
+    knowledge: ClassVar = ("calibration",)
     template: ClassVar = Template(
         title="Loaded bar and displacement probes",
         setup=_SETUP,

@@ -52,7 +52,7 @@ def drive_json(result: DriveIdentification) -> dict[str, Any]:
                 "held_out": test.held_out,
                 "axes": test.axes,
                 "notes": test.notes,
-                "about": {key: value for key, value in asdict(test.about).items() if value},
+                "about": test.about.said(),
                 "files": [{"run": run, "file": file, "sha256": sha256} for run, (file, sha256) in test.files.items()],
             },
             "axes": [_axis(axis) for axis in result.axes],
