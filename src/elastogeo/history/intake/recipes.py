@@ -98,6 +98,7 @@ def differing(one: Any, other: Any, at: str = "") -> tuple[str, ...]:
 
 def _of_machine(test: MachineTest) -> dict[str, Any]:
     setup = test.setup
+    usual = {field.name: field.default for field in fields(setup)}  # type: ignore[arg-type]
     settings = {
         field.name: _plain(getattr(setup, field.name))
         for field in fields(setup)  # type: ignore[arg-type]
@@ -107,7 +108,7 @@ def _of_machine(test: MachineTest) -> dict[str, Any]:
         "instrument": test.instrument,
         "topology": test.machine.topology.compact,
         "setup": settings,
-        "corrections": [name for name in setup.corrections if getattr(setup, name) not in (None, 0.0, ())],
+        "corrections": [name for name in setup.corrections if getattr(setup, name) != usual[name]],
         "workpiece": _plain(test.workpiece),
         "question": _plain(test.question),
         "runs": list(_runs(test.runs, test.setup.pose_quantity)),
@@ -178,14 +179,14 @@ def _plain(value: Any) -> Any:
 
 def _name(test: MachineTest) -> str:
     """What people call it: instrument, plane or axis, radius, levels."""
-    setup = test.setup
-    circle = getattr(setup, "circle", None)
+    facts = {fact.name: fact.value for fact in test.setup.facts()}
     parts = [test.instrument.replace("-", " ")]
-    if circle is not None:
-        plane = circle.plane if isinstance(circle.plane, str) else "tilted"
-        parts += [plane, f"R{circle.radius:g}"]
-    if isinstance(getattr(setup, "axis", None), str):
-        parts.append(setup.axis)  # type: ignore[attr-defined]
+    if "plane" in facts:
+        parts.append(facts["plane"] if isinstance(facts["plane"], str) else "tilted")
+    if "radius" in facts:
+        parts.append(f"R{facts['radius']:g}")
+    if isinstance(facts.get("axis"), str):
+        parts.append(str(facts["axis"]))
     parts += _levels(test.runs)
     return " ".join(parts)
 
