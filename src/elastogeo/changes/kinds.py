@@ -38,6 +38,11 @@ KINDS = {
         Kind("straightness", "mm", 0.5e-3, 1e-3),
         Kind("backlash", "mm", 0.5e-3, 1e-3),
         Kind("circular deviation", "mm", 1e-3, 2e-3),
+        Kind("positioning", "mm", 1e-3, 2e-3),
+        Kind("angular backlash", "rad", 5e-6, 1e-5),
+        Kind("angular positioning", "rad", 5e-6, 1e-5),
+        *(Kind(f"friction, {unit}", unit, 0.05, 0.15, relative=True) for unit in ("A", "N mm", "N", "%")),
     )
 }
-"""By name."""
+"""By name. Positioning scatters as a circle does, by temperature; 5 urad is one second, to which a rotary table repeats.
+Coulomb friction follows lubrication and warmth by several per cent from day to day; wear or jamming changes it by more."""

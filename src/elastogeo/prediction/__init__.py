@@ -9,7 +9,7 @@ from elastogeo.discovery import first_use
 
 if TYPE_CHECKING:
     from elastogeo.prediction.compensation import compensate, compensate_path
-    from elastogeo.prediction.knowledge import Knowledge, Predicted, knowledge_of
+    from elastogeo.prediction.knowledge import Knowledge, Predicted, Span, knowledge_of
     from elastogeo.prediction.maps import (
         Acceptance,
         AgainstDesign,
@@ -78,6 +78,7 @@ __all__ = [
     "PieceDeviation",
     "Place",
     "Predicted",
+    "Span",
     "ToolCompliance",
     "accepted",
     "collinear_stiffness_of",
@@ -103,7 +104,7 @@ __getattr__ = first_use(
     __name__,
     {
         "compensation": "compensate compensate_path",
-        "knowledge": "Knowledge Predicted knowledge_of",
+        "knowledge": "Knowledge Predicted Span knowledge_of",
         "maps": "Acceptance AgainstDesign ComplianceMap DesignParameter Grid Place accepted map_compliance",
         "maps.verdict": "DESIGN FOUNDATION LIMIT NOTHING_LEFT_OUT SUPPORTED_EVERYWHERE UNCERTAINTY_KNOWN",
         "paths": "DEVIATION_COMPONENTS PARTS PartOfDeviation PathPrediction Piece PieceDeviation "
