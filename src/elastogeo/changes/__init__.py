@@ -4,6 +4,8 @@ Stands on all rooms below, mostly on `identification` and `prediction` for what 
 no page. `history` keeps the series and acts on the verdicts, `report` shows them.
 """
 
+from typing import TYPE_CHECKING
+
 from elastogeo.changes.causes import Cause, Signatures
 from elastogeo.changes.change_points import ChangePoint
 from elastogeo.changes.charts import Charts, Judged, Running, start, step
@@ -30,6 +32,10 @@ from elastogeo.changes.result import (
 )
 from elastogeo.changes.rules import Rule
 from elastogeo.changes.series import Baseline, Indicator, Series, Tolerance
+from elastogeo.discovery import first_use
+
+if TYPE_CHECKING:
+    from elastogeo.changes.indicators import indicators_of
 
 __all__ = [
     "ALARM",
@@ -76,8 +82,11 @@ __all__ = [
     "due_after",
     "due_on",
     "fleet_prior",
+    "indicators_of",
     "reference_from",
     "reference_of",
     "start",
     "step",
 ]
+
+__getattr__ = first_use(__name__, {"indicators": "indicators_of"})

@@ -30,8 +30,8 @@ class Indicator(Part):
     value : float
         In the unit of its kind.
     standard_uncertainty : float
-        By the scatter within this test; NaN or infinite if nothing shows it. **What is systematic is not in it**: it is alike
-        in all tests of a series, and no reason for them to differ.
+        By the scatter within this test; NaN or infinite if nothing shows it. **What is systematic is not in it**: that is
+        alike in all tests of a series, and no reason for them to differ.
     """
 
     name: str

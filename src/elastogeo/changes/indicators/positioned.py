@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf, nan
+from math import inf, isfinite, sqrt
 
 import numpy as np
 
@@ -44,19 +44,21 @@ def _systematic(result: PositioningResults, kind: str, called: str) -> Iterator[
 def _value(result: PositioningResults, name: str, kind: str, called: str, sign: float = 1.0) -> Iterator[Indicator]:
     found = result.values.get(name)
     if found is not None and np.isfinite(found.value):
-        u = inf if found.estimate is None else found.estimate.standard_uncertainty
+        u = inf if found.estimate is None else sqrt(max(found.estimate.standard_uncertainty**2 - found.measurement**2, 0.0))
         yield Indicator(called, KINDS[kind], sign * found.value, u)
 
 
 def _slope(result: PositioningResults) -> tuple[float, float] | None:
-    """Of the mean deviations over the targets, and its standard deviation; None if there are not two targets."""
-    target, middle = result.targets.target, np.nanmean(result.targets.mean, axis=1)
-    shown = np.isfinite(middle)
+    """Of the mean deviations over the targets, and its standard deviation by the approaches; None if there are not two."""
+    found = result.targets
+    read = found.count > 0
+    both = read.all(axis=1)
+    shown = both if both.any() else read.any(axis=1)
     if np.sum(shown) < 2:
         return None
-    off = target[shown] - target[shown].mean()
-    spread = float(off @ off)
-    slope = float(off @ middle[shown]) / spread
-    left = middle[shown] - middle[shown].mean() - slope * off
-    freedom = len(off) - 2
-    return slope, float(np.sqrt(left @ left / freedom / spread)) if freedom > 0 else nan
+    off = found.target[shown] - found.target[shown].mean()
+    weight, sides = off / float(off @ off), np.sum(read[shown], axis=1)
+    middle = np.sum(np.where(read, found.mean, 0.0)[shown], axis=1) / sides
+    scatter = np.where(read, found.deviation**2 / np.maximum(found.count, 1.0), 0.0)[shown]
+    u = float(np.sqrt(weight**2 @ (np.sum(scatter, axis=1) / sides**2)))
+    return float(weight @ middle), u if isfinite(u) else inf

@@ -23,7 +23,7 @@ test does not determine is left out, not guessed.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from elastogeo.changes.series import MOST, Indicator
 from elastogeo.discovery import import_all
@@ -33,7 +33,7 @@ from elastogeo.result import Result
 R = TypeVar("R", bound=Result)
 Indicating = Callable[[R], tuple[Indicator, ...]]
 
-_REGISTER: dict[type[Result], Indicating] = {}
+_REGISTER: dict[type[Result], Indicating[Any]] = {}
 
 
 def indicates(kind: type[R]) -> Callable[[Indicating[R]], Indicating[R]]:
@@ -46,7 +46,7 @@ def indicates(kind: type[R]) -> Callable[[Indicating[R]], Indicating[R]]:
     return registered
 
 
-def watched() -> dict[type[Result], Indicating]:
+def watched() -> dict[type[Result], Indicating[Any]]:
     """What is watched, by kind of result; every file of this wing is looked at."""
     import_all(__name__.rpartition(".")[0])
     return dict(_REGISTER)
