@@ -10,12 +10,21 @@ from elastogeo.changes.causes import Cause, Signatures
 from elastogeo.changes.change_points import ChangePoint
 from elastogeo.changes.charts import Charts, Judged, Running, start, step
 from elastogeo.changes.drifts import Drift
-from elastogeo.changes.due_dates import DUE, NEVER_TESTED, NOT_ASKED, NOT_DUE, OVERDUE, DueDate, due_after, due_on
+from elastogeo.changes.due_dates import DUE, NEVER_TESTED, NOT_ASKED, NOT_DUE, OVERDUE, DueDate, due_after, due_of, due_on
 from elastogeo.changes.events import Event, OpenAlarm
 from elastogeo.changes.fleets import MACHINE_STATES, FleetState, MachineRow, MachineState
 from elastogeo.changes.instruments import InstrumentMove
 from elastogeo.changes.kinds import KINDS, Kind
 from elastogeo.changes.priors import Prior, default_prior, fleet_prior
+from elastogeo.changes.records import (
+    Differing,
+    KeptCampaign,
+    KeptPlan,
+    KeptPlans,
+    Recomputed,
+    RecomputedTest,
+    recomputed_same,
+)
 from elastogeo.changes.references import Reference, reference_from, reference_of
 from elastogeo.changes.result import (
     ALARM,
@@ -36,6 +45,7 @@ from elastogeo.discovery import first_use
 
 if TYPE_CHECKING:
     from elastogeo.changes.indicators import indicators_of
+from elastogeo.changes.series import MOST
 
 __all__ = [
     "ALARM",
@@ -43,6 +53,7 @@ __all__ = [
     "DUE",
     "KINDS",
     "MACHINE_STATES",
+    "MOST",
     "NEVER_TESTED",
     "NOT_ASKED",
     "NOT_DUE",
@@ -58,6 +69,7 @@ __all__ = [
     "ChangePoint",
     "ChangeVerdict",
     "Charts",
+    "Differing",
     "Drift",
     "DueDate",
     "Event",
@@ -66,11 +78,16 @@ __all__ = [
     "IndicatorState",
     "InstrumentMove",
     "Judged",
+    "KeptCampaign",
+    "KeptPlan",
+    "KeptPlans",
     "Kind",
     "MachineRow",
     "MachineState",
     "OpenAlarm",
     "Prior",
+    "Recomputed",
+    "RecomputedTest",
     "Reference",
     "Rule",
     "Running",
@@ -80,9 +97,11 @@ __all__ = [
     "Tolerance",
     "default_prior",
     "due_after",
+    "due_of",
     "due_on",
     "fleet_prior",
     "indicators_of",
+    "recomputed_same",
     "reference_from",
     "reference_of",
     "start",

@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isfinite
 
+import numpy as np
+
+from elastogeo.changes.series import Series
 from elastogeo.errors import InputError
 from elastogeo.result import Part
 
@@ -13,6 +16,9 @@ NEVER_TESTED = "never tested"
 NOT_DUE = "not due"
 DUE = "due"
 OVERDUE = "overdue"
+
+AHEAD = 1.0
+"""Days that a test may be dated after now: time zones and slow clocks explain less."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -95,3 +101,24 @@ def due_after(last: float | None, interval: float | None, grace: float, now: flo
     if last is None:
         return DueDate(None, due_on(None, grace, now).grace, NEVER_TESTED)
     return due_on(last + interval, grace, now)
+
+
+def due_of(series: Series, interval: float | None, grace: float, now: float) -> DueDate:
+    """When the next test of a series is due, counted from the last one that stands: not set aside, and it showed something.
+
+    A test that is dated more than `AHEAD` after now has a wrong clock: it counts for no due date.
+
+    Parameters
+    ----------
+    series : Series
+    interval : float or None [d]
+    grace, now : float [d]
+
+    Raises
+    ------
+    InputError
+        As `due_after`.
+    """
+    stands = ~series.aside & np.isfinite(series.value).any(axis=1) & (series.date <= now + AHEAD)
+    last = float(series.date[stands][-1]) if stands.any() else None
+    return due_after(last, interval, grace, now)
