@@ -50,6 +50,7 @@ if TYPE_CHECKING:
         read_program,
         read_program_bytes,
         write_program,
+        write_programs,
     )
     from elastogeo.formats.recording_files import (
         INITIAL,
@@ -149,6 +150,7 @@ __all__ = [
     "standing_gaps",
     "write_calibration",
     "write_program",
+    "write_programs",
     "write_runs",
     "write_tests",
     "write_whole",
@@ -179,7 +181,7 @@ __getattr__ = first_use(
         "log_files": "LogFormat log_formats read_log",
         "logs.parquet": "read_recording",
         "program_files": "Flavour Reading Writing flavours "
-        "program_text programs_of read_program read_program_bytes write_program",
+        "program_text programs_of read_program read_program_bytes write_program write_programs",
         "recording_files": "Gap INITIAL PartHead RecordedChannel SCHEMA Samples encode_part "
         "part_files part_name read_head read_table said_gap said_time standing_gaps",
         "run_files": "RunFormat read_run run_formats",

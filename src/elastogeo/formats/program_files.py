@@ -286,11 +286,18 @@ def write_program(
         If the machine cannot make it: with the axis, the value and the limit.
     """
     programs, writing = programs_of(what, **settings)
+    return write_programs(programs, path, flavour, writing)
+
+
+def write_programs(
+    programs: Mapping[str, Program], path: str | Path, flavour: str = "iso", writing: Writing | None = None
+) -> tuple[Path, ...]:
+    """Write programs that were made already, by the names of their files, as `write_program` does; in their order."""
     suffix = flavour_named(flavour).suffix
-    texts = {name: program_text(program, flavour, writing) for name, program in programs.items()}
+    texts = [program_text(program, flavour, writing).encode("ascii") for program in programs.values()]
     single = len(texts) == 1 and not Path(path).is_dir()
-    targets = [Path(path)] if single else [Path(path) / f"{name}{suffix}" for name in texts]
-    return write_whole({target: text.encode("ascii") for target, text in zip(targets, texts.values(), strict=True)})
+    targets = [Path(path)] if single else [Path(path) / f"{name}{suffix}" for name in programs]
+    return write_whole(dict(zip(targets, texts, strict=True)))
 
 
 def programs_of(what: Program | Askable | Planned, **settings: Any) -> tuple[dict[str, Program], Writing]:

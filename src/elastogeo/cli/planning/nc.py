@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from math import radians
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 import elastogeo as eg
 from elastogeo.cli.options import AsJson, TestPaths
+
+if TYPE_CHECKING:
+    from elastogeo.machine import Program
 
 
 def nc(
@@ -49,7 +52,7 @@ def nc(
       elastogeo nc my-test --flavour linuxcnc -o my-test.ngc
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import programs_of
+    from elastogeo.formats import programs_of, write_programs
 
     given = {
         "start": None if start_deg is None else radians(start_deg),
@@ -65,21 +68,23 @@ def nc(
     with screen.progress("reading the tests", quiet=as_json) as step:
         asked = eg.read_campaign(tests, planned=360)
         step("writing the programs")
-        written = eg.write_program(asked, output, flavour, **settings)
-    programs, _ = programs_of(asked, **settings)
-    made = zip(written, programs.values(), strict=True)
-    rows = [
-        {
-            "file": str(file),
-            "flavour": flavour,
-            "blocks": len(program.blocks),
-            "axes": list(program.axes),
-            "minutes": float(program.moves().duration.sum() + program.moves().pause.sum()) / 60,
-        }
-        for file, program in made
-    ]
+        programs, writing = programs_of(asked, **settings)
+        written = write_programs(programs, output, flavour, writing)
+    rows = [_row(file, flavour, program) for file, program in zip(written, programs.values(), strict=True)]
     if as_json:
         screen.show_json({"schema": "elastogeo.programs/1", "programs": rows})
         return
     for row in rows:
         screen.say(f"{row['file']}: {row['blocks']} blocks, {row['minutes']:.1f} min at feed without stops and rapid moves")
+
+
+def _row(file: Path, flavour: str, program: Program) -> dict[str, Any]:
+    """What is said of a program that was written."""
+    moves = program.moves()
+    return {
+        "file": str(file),
+        "flavour": flavour,
+        "blocks": len(program.blocks),
+        "axes": list(program.axes),
+        "minutes": float(moves.duration.sum() + moves.pause.sum()) / 60,
+    }
