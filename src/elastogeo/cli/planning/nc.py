@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from math import radians
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,7 +13,9 @@ import elastogeo as eg
 from elastogeo.cli.options import AsJson, TestPaths
 
 if TYPE_CHECKING:
-    from elastogeo.machine import Program
+    from elastogeo.observe import Campaign
+
+_Given = Mapping[str, float | None]
 
 
 def nc(
@@ -52,25 +55,15 @@ def nc(
       elastogeo nc my-test --flavour linuxcnc -o my-test.ngc
     """
     from elastogeo.cli import screen
-    from elastogeo.formats import programs_of, write_programs
 
-    given = {
-        "start": None if start_deg is None else radians(start_deg),
-        "overshoot": None if overshoot_deg is None else radians(overshoot_deg),
-        "change": change_s,
-        "decimals": decimals,
-        "most_feed": None if most_feed_mm_min is None else most_feed_mm_min / 60,
-        "most_radius": most_radius_mm,
-    }
-    settings: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-    settings |= {"feed_in": feed_in_mm, "approach": approach_mm_min / 60, "clearance": clearance_mm, "order": order}
-    settings |= {"dwell": dwell_s, "zero": zero}
+    angles = {"start": start_deg, "overshoot": overshoot_deg}
+    feeds = {"approach": approach_mm_min, "most_feed": most_feed_mm_min}
+    others = {"feed_in": feed_in_mm, "clearance": clearance_mm, "most_radius": most_radius_mm, "decimals": decimals}
+    settings = _settings(angles, feeds, others | {"dwell": dwell_s, "change": change_s, "order": order, "zero": zero})
     with screen.progress("reading the tests", quiet=as_json) as step:
         asked = eg.read_campaign(tests, planned=360)
         step("writing the programs")
-        programs, writing = programs_of(asked, **settings)
-        written = write_programs(programs, output, flavour, writing)
-    rows = [_row(file, flavour, program) for file, program in zip(written, programs.values(), strict=True)]
+        rows = list(_written(asked, output, flavour, settings))
     if as_json:
         screen.show_json({"schema": "elastogeo.programs/1", "programs": rows})
         return
@@ -78,13 +71,24 @@ def nc(
         screen.say(f"{row['file']}: {row['blocks']} blocks, {row['minutes']:.1f} min at feed without stops and rapid moves")
 
 
-def _row(file: Path, flavour: str, program: Program) -> dict[str, Any]:
-    """What is said of a program that was written."""
-    moves = program.moves()
-    return {
-        "file": str(file),
-        "flavour": flavour,
-        "blocks": len(program.blocks),
-        "axes": list(program.axes),
-        "minutes": float(moves.duration.sum() + moves.pause.sum()) / 60,
-    }
+def _settings(degrees: _Given, mm_min: _Given, as_given: Mapping[str, Any]) -> dict[str, Any]:
+    """What was said, in rad, mm, mm/s and s."""
+    said = {name: radians(angle) for name, angle in degrees.items() if angle is not None}
+    said |= {name: feed / 60 for name, feed in mm_min.items() if feed is not None}
+    return said | {name: value for name, value in as_given.items() if value is not None}
+
+
+def _written(asked: Campaign, output: Path, flavour: str, settings: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    """The programs, written, and what is said of each."""
+    from elastogeo.formats import programs_of, write_programs
+
+    programs, writing = programs_of(asked, **settings)
+    for file, program in zip(write_programs(programs, output, flavour, writing), programs.values(), strict=True):
+        moves = program.moves()
+        yield {
+            "file": str(file),
+            "flavour": flavour,
+            "blocks": len(program.blocks),
+            "axes": list(program.axes),
+            "minutes": float(moves.duration.sum() + moves.pause.sum()) / 60,
+        }

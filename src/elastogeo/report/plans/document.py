@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from elastogeo.planning import Candidate, Plan
+from elastogeo.planning import Candidate, Expectation, NextBest, Plan, PlannedTest, Reason, ToolSupport
 from elastogeo.report.document import document, verdict_entries
 
 PLAN_SCHEMA = "elastogeo.plan/1"
@@ -31,7 +31,7 @@ PLAN_SCHEMA = "elastogeo.plan/1"
 
 def plan_json(plan: Plan) -> dict[str, Any]:
     """A plan as one JSON object (`elastogeo.plan/1`)."""
-    machine, noise, more = plan.means.machine, plan.noise, plan.next_best
+    machine, noise = plan.means.machine, plan.noise
     return document(
         PLAN_SCHEMA,
         {
@@ -50,67 +50,72 @@ def plan_json(plan: Plan) -> dict[str, Any]:
                 "force": noise.force,
             },
             "made": [] if plan.made is None else list(plan.made.tests),
-            "tests": [
-                {
-                    "name": one.candidate.name,
-                    "instrument": one.candidate.test.instrument,
-                    "minutes": one.candidate.minutes,
-                    "commands": commands_of(one.candidate),
-                    "rank": one.rank_so_far,
-                    "supported": one.supported_so_far,
-                    "worst_with_prior": one.worst_so_far,
-                }
-                for one in plan.tests
-            ],
-            "parameters": [
-                {
-                    "name": p.name,
-                    "unit": p.unit,
-                    "known": p.known,
-                    "stands_for": dict(p.stands_for),
-                    "standard_uncertainty": p.standard_uncertainty,
-                    "scale": p.scale,
-                }
-                for p in plan.parameters
-            ],
+            "tests": [_test(one) for one in plan.tests],
+            "parameters": [_parameter(p) for p in plan.parameters],
             "rank": plan.rank,
             "highest_rank": plan.highest_rank,
             "weak": plan.weak,
             "fewest": plan.fewest,
-            "never_alone": [
-                {
-                    "name": why.name,
-                    "alike": why.alike,
-                    "probes": []
-                    if why.remedy is None
-                    else [{"across": p.across, "sensor": p.sensor, "point_mm": p.point} for p in why.remedy.probes],
-                }
-                for why in plan.reasons
-            ],
-            "workspace": [
-                {
-                    "tool_mm": tool.tool,
-                    "share": tool.share,
-                    "median": tool.median,
-                    "worst": tool.worst,
-                    "worst_with_prior": tool.worst_with_prior,
-                    "worst_at": dict(tool.worst_at),
-                    "tests_needed": tool.tests_needed,
-                    "more_needed": tool.more_needed,
-                }
-                for tool in plan.tools
-            ],
-            "next_best": None
-            if more is None
-            else {
-                "name": more.candidate.name,
-                "rank": more.rank,
-                "worst_with_prior": more.worst,
-                "supported": more.supported,
-            },
+            "never_alone": [_never_alone(why) for why in plan.reasons],
+            "workspace": [_support(tool) for tool in plan.tools],
+            "next_best": None if plan.next_best is None else _next_best(plan.next_best),
             "verdict": verdict_entries(plan.verdict),
         },
     )
+
+
+def _test(one: PlannedTest) -> dict[str, Any]:
+    return {
+        "name": one.candidate.name,
+        "instrument": one.candidate.test.instrument,
+        "minutes": one.candidate.minutes,
+        "commands": commands_of(one.candidate),
+        "rank": one.rank_so_far,
+        "supported": one.supported_so_far,
+        "worst_with_prior": one.worst_so_far,
+    }
+
+
+def _parameter(p: Expectation) -> dict[str, Any]:
+    return {
+        "name": p.name,
+        "unit": p.unit,
+        "known": p.known,
+        "stands_for": dict(p.stands_for),
+        "standard_uncertainty": p.standard_uncertainty,
+        "scale": p.scale,
+    }
+
+
+def _never_alone(why: Reason) -> dict[str, Any]:
+    probes = () if why.remedy is None else why.remedy.probes
+    return {
+        "name": why.name,
+        "alike": why.alike,
+        "probes": [{"across": p.across, "sensor": p.sensor, "point_mm": p.point} for p in probes],
+    }
+
+
+def _support(tool: ToolSupport) -> dict[str, Any]:
+    return {
+        "tool_mm": tool.tool,
+        "share": tool.share,
+        "median": tool.median,
+        "worst": tool.worst,
+        "worst_with_prior": tool.worst_with_prior,
+        "worst_at": dict(tool.worst_at),
+        "tests_needed": tool.tests_needed,
+        "more_needed": tool.more_needed,
+    }
+
+
+def _next_best(more: NextBest) -> dict[str, Any]:
+    return {
+        "name": more.candidate.name,
+        "rank": more.rank,
+        "worst_with_prior": more.worst,
+        "supported": more.supported,
+    }
 
 
 def commands_of(candidate: Candidate) -> dict[str, list[float]]:
