@@ -19,11 +19,10 @@ from typing import Any
 
 from elastogeo.machine import SIDES
 from elastogeo.prediction.compensation import CompensatedError, Compensation, InVolume
-from elastogeo.report.compensations.scale import scale_of
 from elastogeo.report.document import document, in_um, tested_together, verdict_entries
+from elastogeo.report.scales import scale_of
 
 COMPENSATION_SCHEMA = "elastogeo.compensation/1"
-_KEYS = {"µm": "um", "″": "arcsec", "mm": "mm", "°": "deg"}
 
 
 def compensation_json(found: Compensation) -> dict[str, Any]:
@@ -70,8 +69,8 @@ def _error(one: CompensatedError) -> dict[str, Any]:
         "name": one.error.name,
         "axis": one.error.axis,
         "component": one.error.component,
-        "unit": _KEYS[scale.unit],
-        "position_unit": _KEYS[scale.place_unit],
+        "unit": scale.key,
+        "position_unit": scale.place_key,
         "zero_at": one.found.zero_at * scale.place_factor,
         "greatest_before": one.before[0] * scale.factor,
         "greatest_after": one.after[0] * scale.factor,

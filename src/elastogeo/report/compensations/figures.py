@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 
 from elastogeo.machine import Array
 from elastogeo.prediction.compensation import CompensatedError
-from elastogeo.report.compensations.scale import scale_of
 from elastogeo.report.drawing.style import BLUE, FAINT, ORANGE, new_figure
+from elastogeo.report.scales import scale_of
 
 _SIDES = ((0, BLUE, "+"), (1, ORANGE, "−"))
 _BAND = 0.18

@@ -9,10 +9,10 @@ import numpy as np
 
 from elastogeo.prediction.compensation import PathCompensation
 from elastogeo.report.compensations.path_document import path_compensation_json
-from elastogeo.report.compensations.scale import said as said_size
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.head import campaign_head, files_section, origin
 from elastogeo.report.numbers import pretty, significant
+from elastogeo.report.scales import said as said_size
 from elastogeo.report.text import UM
 from elastogeo.report.view import KeyValue, Picture, Section, Table, View, attention_sentence, said, views
 

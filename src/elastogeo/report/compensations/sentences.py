@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from elastogeo.errors import several
-from elastogeo.report.compensations.scale import said, said_with
 from elastogeo.report.numbers import pretty, significant
+from elastogeo.report.scales import said, said_with
 from elastogeo.report.sentences import Facts, says
 
 

@@ -9,11 +9,11 @@ import numpy as np
 
 from elastogeo.prediction.compensation import CompensatedError, Compensation, LeftOut
 from elastogeo.report.compensations.document import compensation_json
-from elastogeo.report.compensations.scale import said as said_size
-from elastogeo.report.compensations.scale import said_with, scale_of
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.head import campaign_head, files_section, origin
 from elastogeo.report.numbers import pretty, significant
+from elastogeo.report.scales import said as said_size
+from elastogeo.report.scales import said_with, scale_of
 from elastogeo.report.view import KeyValue, Picture, Section, Table, View, attention_sentence, said, views
 
 if TYPE_CHECKING:

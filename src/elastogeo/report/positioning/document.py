@@ -23,26 +23,26 @@ from typing import Any
 from elastogeo.identification import PositioningResults, StandardValue
 from elastogeo.report.document import document, tested, uncertainty_entries, verdict_entries
 from elastogeo.report.identification.document import identification_json
-from elastogeo.report.positioning.scale import scale_of
+from elastogeo.report.scales import scale_for
 
 POSITIONING_SCHEMA = "elastogeo.positioning/1"
 
 
 def positioning_json(found: PositioningResults) -> dict[str, Any]:
     """What a positioning test says as one JSON object (`elastogeo.positioning/1`)."""
-    scale, targets = scale_of(found), found.targets
+    scale, targets = scale_for(found.angular, found.rotary), found.targets
     return document(
         POSITIONING_SCHEMA,
         {
             "test": tested(found.test, None),
             "axis": found.axis,
             "unit": scale.key,
-            "target_unit": "deg" if scale.target_unit == "°" else "mm",
+            "target_unit": scale.place_key,
             "along": found.along,
             "values": [_value(value, scale.factor) for value in found.values.values()],
             "targets": [
                 {
-                    "target": target * scale.target_factor,
+                    "target": target * scale.place_factor,
                     "readings": targets.count[k].astype(int),
                     "mean": targets.mean[k] * scale.factor,
                     "reversal": targets.reversal[k] * scale.factor,

@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 
 from elastogeo.identification import PositioningResults
 from elastogeo.report.drawing.style import BLUE, FAINT, GREY, INK, ORANGE, SMALL, new_figure
-from elastogeo.report.positioning.scale import Scale, said_value, scale_of
+from elastogeo.report.positioning.tables import said_value
+from elastogeo.report.scales import Scale, scale_for
 
 _SIDES = ((0, 1.0, BLUE, "+"), (1, -1.0, ORANGE, "−"))
 _SPANS = (("A", "A+", "A-"), ("E", "E+", "E-"), ("M",))
@@ -17,7 +18,7 @@ _SPANS = (("A", "A+", "A-"), ("E", "E+", "E-"), ("M",))
 
 def deviations_figure(found: PositioningResults) -> Figure:
     """Every reading, the means and their two-sigma limits by direction, the mean of both sides, and what A, E, M span."""
-    scale = scale_of(found)
+    scale = scale_for(found.angular, found.rotary)
     figure = new_figure(3.8)
     ax = figure.subplots()
     ax.axhline(0.0, color=FAINT, linewidth=0.7, zorder=0)
@@ -25,10 +26,10 @@ def deviations_figure(found: PositioningResults) -> Figure:
         _side(ax, found, scale, column, sign, colour, name)
     middle = found.targets.middle
     if not np.isnan(middle).all():
-        place = found.targets.target * scale.target_factor
+        place = found.targets.target * scale.place_factor
         ax.plot(place, middle * scale.factor, color=INK, linewidth=0.9, linestyle=(0, (4, 2)), label="mean of both sides")
     _spans(ax, found, scale)
-    ax.set_xlabel(f"target ({scale.target_unit})")
+    ax.set_xlabel(f"target ({scale.place_unit})")
     ax.set_ylabel(f"deviation ({scale.unit})")
     figure.legend(loc="outside upper center", ncols=5)
     return figure
@@ -38,10 +39,10 @@ def _side(ax: Axes, found: PositioningResults, scale: Scale, column: int, sign: 
     targets, here = found.targets, found.sense == sign
     if not here.any():
         return
-    place = targets.target * scale.target_factor
+    place = targets.target * scale.place_factor
     mean, limit = targets.mean[:, column] * scale.factor, 2 * targets.deviation[:, column] * scale.factor
     ax.plot(
-        found.target[here] * scale.target_factor,
+        found.target[here] * scale.place_factor,
         found.reading[here] * scale.factor,
         ">" if sign > 0 else "<",
         color=colour,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from elastogeo.report.numbers import pretty, probability, significant
-from elastogeo.report.positioning.scale import ARCSEC
+from elastogeo.report.scales import ARCSEC
 from elastogeo.report.sentences import Facts, says
 from elastogeo.report.text import UM
 

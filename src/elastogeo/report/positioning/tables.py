@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from elastogeo.identification import PositioningResults
-from elastogeo.report.numbers import pretty, significant
-from elastogeo.report.positioning.scale import Scale, said_value
+from elastogeo.identification import PositioningResults, StandardValue
+from elastogeo.report.numbers import pretty, said_estimate, significant
+from elastogeo.report.scales import Scale
 from elastogeo.report.view import Table
 
 _ROWS = (
@@ -38,14 +38,14 @@ def target_table(found: PositioningResults, scale: Scale) -> Table:
     targets, u = found.targets, scale.unit
     rows = tuple(
         (
-            pretty(f"{target * scale.target_factor:.6g}"),
+            pretty(f"{target * scale.place_factor:.6g}"),
             "/".join(f"{count:.0f}" for count in targets.count[k]),
             *_figures([*targets.mean[k], targets.reversal[k], *targets.deviation[k], targets.repeatability[k]], scale),
         )
         for k, target in enumerate(targets.target)
     )
     headings = (f"mean + [{u}]", f"mean − [{u}]", f"B [{u}]", f"s + [{u}]", f"s − [{u}]", f"R [{u}]")
-    return Table((f"target [{scale.target_unit}]", "readings +/−", *headings), rows, (), "By target")
+    return Table((f"target [{scale.place_unit}]", "readings +/−", *headings), rows, (), "By target")
 
 
 def budget_table(found: PositioningResults, scale: Scale) -> Table:
@@ -65,6 +65,13 @@ def _budget_rows(found: PositioningResults, labels: list[str], scale: Scale) -> 
         sizes = {part.label: part.standard_uncertainty for part in value.contributions}
         cells = [pretty(significant(sizes[label] * scale.factor, 2)) if label in sizes else "–" for label in labels]
         yield (name.replace("-", "−"), *cells, pretty(significant(value.measurement * scale.factor, 2)))
+
+
+def said_value(value: StandardValue, scale: Scale) -> str:
+    """A value as `value ± U`; alone, where the cycles show no scatter."""
+    if value.estimate is None:
+        return pretty(significant(value.value * scale.factor))
+    return pretty(said_estimate(value.estimate.scaled(scale.factor)))
 
 
 def _figures(values: list[float], scale: Scale) -> tuple[str, ...]:

@@ -12,8 +12,8 @@ from elastogeo.report.identification.pictures import picture
 from elastogeo.report.identification.view import parameter_table, stands_for
 from elastogeo.report.numbers import pretty, significant
 from elastogeo.report.positioning.document import positioning_json
-from elastogeo.report.positioning.scale import Scale, said_value, scale_of
-from elastogeo.report.positioning.tables import budget_table, target_table, value_table
+from elastogeo.report.positioning.tables import budget_table, said_value, target_table, value_table
+from elastogeo.report.scales import Scale, scale_for
 from elastogeo.report.view import KeyValue, Picture, Section, View, attention_sentence, said, views
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ _NO_LEVER = 0.5
 @views(PositioningResults)
 def positioning_view(found: PositioningResults) -> View:
     """All that is shown of a positioning test."""
-    test, scale = found.test, scale_of(found)
+    test, scale = found.test, scale_for(found.angular, found.rotary)
     names = [next((name for name in several if name in found.values), "") for several in _KEYS]
     values = tuple(_key(found, name, scale) for name in names if name)
     lead = ", ".join(f"{one.name} = {one.value} {one.unit} ({one.meaning})" for one in values[:3])
@@ -78,8 +78,8 @@ def _key(found: PositioningResults, name: str, scale: Scale) -> KeyValue:
 
 
 def _head(found: PositioningResults, scale: Scale) -> Iterator[tuple[str, str]]:
-    first, last = (found.targets.target[k] * scale.target_factor for k in (0, -1))
-    ends = pretty(f"{first:.6g} to {last:.6g} {scale.target_unit}")
+    first, last = (found.targets.target[k] * scale.place_factor for k in (0, -1))
+    ends = pretty(f"{first:.6g} to {last:.6g} {scale.place_unit}")
     yield "Axis", f"{found.axis}, {len(found.targets.target)} targets from {ends}, {found.cycle.max()} cycles"
 
 
