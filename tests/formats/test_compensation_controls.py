@@ -62,6 +62,7 @@ class TestLeadscrew:
             (("X1]", "Q9]"), "has the axis Q9, which is none of X1, Y1, Z1, A1, B1, C1; say axes"),
             (("CHANDATA(1)", "R1=2"), r"f, line 2: 'R1=2' is nothing that leadscrew error compensation has"),
             (("=0.003000", "=three"), r"f, line 3: a value is 'three', which is no number"),
+            (("M17\n", ""), "f: does not end with M17 on a line of its own; it may be cut off, copy it again"),
         ],
     )
     def test_what_does_not_fit_is_refused(self, change, message):
@@ -111,6 +112,20 @@ class TestSag:
             read("sinumerik-cec", text.replace("MULT_BY_TABLE[0]=0", "MULT_BY_TABLE[0]=2"))
         with pytest.raises(FormatError, match="table 0 lacks INPUT_AXIS; add it"):
             read("sinumerik-cec", text.replace("$AN_CEC_INPUT_AXIS[0]=(AX1)\n", ""))
+
+    @pytest.mark.parametrize(
+        ("change", "message"),
+        [
+            (("MAX[0]=1.0", "MAX[0]=3.0"), "f: table 0 has 2 points where MIN, MAX and STEP make 4; correct them"),
+            (("STEP[0]=1.0", "STEP[0]=0.0"), "f: table 0 has 2 points where MIN, MAX and STEP make 0; correct them"),
+            (("CHANDATA(1)", "R1=2"), "f, line 2: 'R1=2' is nothing that sag compensation has; take it out"),
+            (("M17\n", ""), "f: does not end with M17 on a line of its own; it may be cut off, copy it again"),
+        ],
+    )
+    def test_what_does_not_fit_is_refused(self, change, message):
+        text = compensation_text([table([0.0, 1.0], [0.0, 1.0])], "sinumerik-cec", {"step": "1"})["cec.ini"].decode()
+        with pytest.raises(FormatError, match=re.escape(message)):
+            read("sinumerik-cec", text.replace(*change))
 
 
 class TestHeidenhain:

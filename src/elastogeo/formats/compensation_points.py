@@ -7,7 +7,7 @@ from math import ceil, floor, log10
 import numpy as np
 
 from elastogeo.errors import InputError
-from elastogeo.machine import Array, ErrorTable
+from elastogeo.machine import ROTARY, Array, ErrorTable
 
 BETWEEN = 4
 """Points to each step between two targets, where the spacing is left to the program: what lies between two is then a few
@@ -49,6 +49,11 @@ def even_points(table: ErrorTable, most: int, step: float | None, unit: float = 
             f"choose a step of {_round_step((high - low) / max(most - 3, 1)):g}"
         )
     return np.arange(first, last + 1, dtype=float) * step
+
+
+def degrees_or_mm(letter: str) -> float:
+    """The unit of the house in that of most controls, of an axis or a component: degrees in a radian, or 1 for mm."""
+    return 180 / np.pi if letter in ROTARY else 1.0
 
 
 def _round_step(least: float) -> float:

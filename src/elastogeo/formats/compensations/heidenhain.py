@@ -32,7 +32,7 @@ from elastogeo.formats.compensation_files import (
     step_of,
     whole,
 )
-from elastogeo.formats.compensation_points import even_points
+from elastogeo.formats.compensation_points import degrees_or_mm, even_points
 from elastogeo.machine import LINEAR, ROTARY, Array, ErrorTable, motion_of
 
 _WIDE, _NARROW = 13, 6
@@ -49,12 +49,12 @@ def write(tables: Sequence[ErrorTable], settings: Settings) -> Files:
 
 
 def _com(axis: str, tables: Sequence[ErrorTable], settings: Settings) -> bytes:
-    unit, sign = _unit(axis), signed(settings)
+    unit, sign = degrees_or_mm(axis), signed(settings)
     widest = max(tables, key=lambda table: np.ptp(table.position))
     points = _union(tables, widest, settings, unit)
     columns: dict[str, Array] = {}
     for table in tables:
-        values = sign * table.at(points / unit) * _unit(table.component)
+        values = sign * table.at(points / unit) * degrees_or_mm(table.component)
         if table.is_own and not table.one_sided:
             columns = {"BACKLASH": values[:, 1], axis: values[:, 0], **columns}
         else:
@@ -101,7 +101,7 @@ def read(data: bytes, source: str, settings: Settings) -> tuple[ErrorTable, ...]
 
 
 def _tables(axis: str, columns: Mapping[str, Array], sign: float, source: str) -> list[ErrorTable]:
-    unit = _unit(axis)
+    unit = degrees_or_mm(axis)
     position = columns["AXISPOS"] / unit
     tables = []
     for name, column in columns.items():
@@ -111,14 +111,9 @@ def _tables(axis: str, columns: Mapping[str, Array], sign: float, source: str) -
             raise FormatError(f"{source}, line 2: the column {name} is no axis; take it out")
         component = motion_of(name)
         back = columns.get("BACKLASH", column) if name == axis else column
-        value = sign * np.column_stack([column, back]) / _unit(component)
+        value = sign * np.column_stack([column, back]) / degrees_or_mm(component)
         tables.append(ErrorTable(axis, component, position, value, np.full_like(value, np.nan)))
     return tables
-
-
-def _unit(letter: str) -> float:
-    """Of the house in the unit of the control, of an axis or a component."""
-    return 180 / np.pi if letter in ROTARY else 1.0
 
 
 register(

@@ -26,6 +26,7 @@ from elastogeo.formats.compensation_files import (
     signed,
     whole,
 )
+from elastogeo.formats.compensation_points import degrees_or_mm
 from elastogeo.machine import COMPONENTS, LINEAR, ROTARY, ErrorTable
 
 _END = "// end"
@@ -51,7 +52,7 @@ def _block(axis: str, tables: Sequence[ErrorTable], sign: float) -> Iterator[str
     position = np.unique(np.concatenate([table.position for table in tables]))
     yield " ".join([axis, *(f"E{table.component}{axis}" for table in tables)])
     columns = [sign * table.at(position).mean(axis=1) for table in tables]
-    place = position * (180 / np.pi if axis in ROTARY else 1.0)
+    place = position * degrees_or_mm(axis)
     for k, at in enumerate(place):
         values = (f"{column[k] + 0.0:.{9 if t.is_angular else 6}f}" for column, t in zip(columns, tables, strict=True))
         yield " ".join([f"{at:.6f}", *values])
@@ -94,7 +95,7 @@ def _tables(axis: str, lines: Sequence[str], sign: float, source: str) -> Iterat
     if {len(row) for row in rows} != {len(names)}:
         raise FormatError(f"{source}: a row of {axis} has not {len(names)} values; correct it")
     columns = np.array(rows).T
-    position = columns[0] / (180 / np.pi if axis in ROTARY else 1.0)
+    position = columns[0] / degrees_or_mm(axis)
     for name, column in zip(names[1:], columns[1:], strict=True):
         value = sign * np.column_stack([column, column])
         yield ErrorTable(axis, name[1], position, value, np.full_like(value, np.nan))

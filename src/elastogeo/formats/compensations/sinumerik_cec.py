@@ -34,10 +34,11 @@ from elastogeo.formats.compensation_files import (
     step_of,
     whole,
 )
-from elastogeo.formats.compensation_points import even_points
-from elastogeo.machine import LINEAR, ROTARY, Array, ErrorTable, motion_of
+from elastogeo.formats.compensation_points import degrees_or_mm, even_points
+from elastogeo.formats.compensations.sinumerik_ini import IniFile, even_column
+from elastogeo.machine import Array, ErrorTable, motion_of
 
-_HEAD = "%_N_NC_CEC_INI"
+_INI = IniFile("%_N_NC_CEC_INI", "sag compensation")
 _VALUE = re.compile(r"\$AN_CEC\[(\d+),(\d+)\]=(\S+)")
 _FACT = re.compile(r"\$AN_CEC_(\w+)\[(\d+)\]=(\S+)")
 _SIDES = {0: (0, 1), 1: (0,), -1: (1,)}
@@ -55,15 +56,14 @@ def write(tables: Sequence[ErrorTable], settings: Settings) -> Files:
         )
     first = whole(settings, "first")
     parts = [_lines(first + t, table, direction, names, settings) for t, (table, direction) in enumerate(single)]
-    lines = [_HEAD, "CHANDATA(1)", *(line for part in parts for line in part), "M17", ""]
-    return {"cec.ini": "\n".join(lines).encode()}
+    return {"cec.ini": _INI.text(line for part in parts for line in part)}
 
 
 def _lines(t: int, table: ErrorTable, direction: int, names: Mapping[str, str], settings: Settings) -> Iterator[str]:
-    unit = _unit(table.axis)
+    unit = degrees_or_mm(table.axis)
     points = even_points(table, whole(settings, "points"), step_of(settings), unit)
     column = _SIDES[direction][0]
-    values = signed(settings) * table.at(points / unit)[:, column] * _unit(table.component)
+    values = signed(settings) * table.at(points / unit)[:, column] * degrees_or_mm(table.component)
     for k, value in enumerate(values):
         yield f"$AN_CEC[{t},{k}]={value + 0.0:.6f}"
     yield f"$AN_CEC_INPUT_AXIS[{t}]=({name_of(table.axis, names)})"
@@ -81,25 +81,17 @@ def _moved_by(table: ErrorTable) -> str:
     return table.axis if table.is_own else table.component
 
 
-def can_read(head: bytes) -> bool:
-    """Whether it begins as such a file does."""
-    return head.startswith(_HEAD.encode())
-
-
 def read(data: bytes, source: str, settings: Settings) -> tuple[ErrorTable, ...]:
     """The errors that the control compensates."""
-    lines = data.decode("ascii", "replace").split("\n")
-    if len(lines) < 2 or lines[-2:] != ["M17", ""]:
-        raise FormatError(f"{source}: does not end with M17 on a line of its own; it may be cut off, copy it again")
     values: dict[int, dict[int, float]] = {}
     facts: dict[int, dict[str, str]] = {}
-    for k, line in enumerate(lines[:-2], 1):
+    for where, line in _INI.assignments(data, source):
         if found := _VALUE.fullmatch(line):
-            values.setdefault(int(found[1]), {})[int(found[2])] = number(found[3], "a value", f"{source}, line {k}")
+            values.setdefault(int(found[1]), {})[int(found[2])] = number(found[3], "a value", where)
         elif found := _FACT.fullmatch(line):
             facts.setdefault(int(found[2]), {})[found[1]] = found[3]
-        elif line not in (_HEAD, "CHANDATA(1)"):
-            raise FormatError(f"{source}, line {k}: {line[:60]!r} is nothing that sag compensation has; take it out")
+        else:
+            raise _INI.unknown(line, where)
     merged: dict[tuple[str, str], list[tuple[Array, Array, int]]] = {}
     for t, found_values in values.items():
         axis, component, position, column, direction = _table(t, found_values, facts.get(t, {}), settings, source)
@@ -118,13 +110,11 @@ def _table(
     names = axis_names(settings)
     axis, output = (letter_of(facts[name].strip("()"), names, source) for name in ("INPUT_AXIS", "OUTPUT_AXIS"))
     step, low, high = (number(facts[name], name, f"{source}, table {t}") for name in ("STEP", "MIN", "MAX"))
-    count = round((high - low) / step) + 1 if step > 0 else 0
-    if sorted(values) != list(range(count)):
-        raise FormatError(f"{source}: table {t} has {len(values)} points where MIN, MAX and STEP make {count}; correct them")
+    position, value = even_column(values, low, high, step, f"table {t}", source)
     component = motion_of(output)
-    position = (low + step * np.arange(count, dtype=float)) / _unit(axis)
-    column = signed(settings) * np.array([values[k] for k in range(count)]) / _unit(component)
-    return axis, component, position, column, int(number(facts.get("DIRECTION", "0"), "DIRECTION", f"{source}, table {t}"))
+    direction = int(number(facts.get("DIRECTION", "0"), "DIRECTION", f"{source}, table {t}"))
+    column = signed(settings) * value / degrees_or_mm(component)
+    return axis, component, position / degrees_or_mm(axis), column, direction
 
 
 def _merged(axis: str, component: str, parts: Sequence[tuple[Array, Array, int]], source: str) -> ErrorTable:
@@ -138,11 +128,6 @@ def _merged(axis: str, component: str, parts: Sequence[tuple[Array, Array, int]]
     return ErrorTable(axis, component, position, value, np.full_like(value, np.nan))
 
 
-def _unit(letter: str) -> float:
-    """Of the house in the unit of the control, of an axis or a component."""
-    return 180 / np.pi if letter in ROTARY and letter not in LINEAR else 1.0
-
-
 register(
     CompensationFormat(
         "sinumerik-cec",
@@ -150,7 +135,7 @@ register(
         "SINUMERIK sag compensation",
         displacements_only,
         write,
-        can_read,
+        _INI.can_read,
         read,
         settings=(
             SIGN,

@@ -32,10 +32,11 @@ from elastogeo.formats.compensation_files import (
     step_of,
     whole,
 )
-from elastogeo.formats.compensation_points import even_points
-from elastogeo.machine import ROTARY, ErrorTable, motion_of
+from elastogeo.formats.compensation_points import degrees_or_mm, even_points
+from elastogeo.formats.compensations.sinumerik_ini import IniFile, even_column
+from elastogeo.machine import ErrorTable, motion_of
 
-_HEAD = "%_N_AX_EEC_INI"
+_INI = IniFile("%_N_AX_EEC_INI", "leadscrew error compensation")
 _VALUE = re.compile(r"\$AA_ENC_COMP\[(\d+),(\d+),(\w+)\]=(\S+)")
 _PLACE = re.compile(r"\$AA_ENC_COMP_(STEP|MIN|MAX|IS_MODULO)\[(\d+),(\w+)\]=(\S+)")
 _BACKLASH = re.compile(r"\$MA_BACKLASH\[(\d+),(\w+)\]=(\S+)")
@@ -53,12 +54,11 @@ def takes(table: ErrorTable) -> str:
 def write(tables: Sequence[ErrorTable], settings: Settings) -> Files:
     """One file for all axes."""
     names = axis_names(settings)
-    lines = [_HEAD, "CHANDATA(1)", *(line for table in tables for line in _lines(table, names, settings)), "M17", ""]
-    return {"eec.ini": "\n".join(lines).encode()}
+    return {"eec.ini": _INI.text(line for table in tables for line in _lines(table, names, settings))}
 
 
 def _lines(table: ErrorTable, names: Mapping[str, str], settings: Settings) -> Iterator[str]:
-    unit = _unit(table.axis)
+    unit = degrees_or_mm(table.axis)
     points = even_points(table, whole(settings, "points"), step_of(settings), unit)
     name, system = name_of(table.axis, names), whole(settings, "system")
     values = table.at(points / unit) * unit
@@ -73,29 +73,20 @@ def _lines(table: ErrorTable, names: Mapping[str, str], settings: Settings) -> I
         yield f"$MA_BACKLASH[{system},{name}]={np.mean(table.value[:, 1] - table.value[:, 0]) * unit:.6f}"
 
 
-def can_read(head: bytes) -> bool:
-    """Whether it begins as such a file does."""
-    return head.startswith(_HEAD.encode())
-
-
 def read(data: bytes, source: str, settings: Settings) -> tuple[ErrorTable, ...]:
     """The errors that the control compensates."""
-    lines = data.decode("ascii", "replace").split("\n")
-    if len(lines) < 2 or lines[-2:] != ["M17", ""]:
-        raise FormatError(f"{source}: does not end with M17 on a line of its own; it may be cut off, copy it again")
     values: dict[str, dict[int, float]] = {}
     places: dict[str, dict[str, float]] = {}
     backlash: dict[str, float] = {}
-    for k, line in enumerate(lines[:-2], 1):
-        where = f"{source}, line {k}"
+    for where, line in _INI.assignments(data, source):
         if found := _VALUE.fullmatch(line):
             values.setdefault(found[3], {})[int(found[2])] = number(found[4], "a value", where)
         elif found := _PLACE.fullmatch(line):
             places.setdefault(found[3], {})[found[1]] = number(found[4], "a value", where)
         elif found := _BACKLASH.fullmatch(line):
             backlash[found[2]] = number(found[3], "a backlash", where)
-        elif line not in (_HEAD, "CHANDATA(1)"):
-            raise FormatError(f"{where}: {line[:60]!r} is nothing that leadscrew error compensation has; take it out")
+        else:
+            raise _INI.unknown(line, where)
     names = axis_names(settings)
     return tuple(
         _table(letter_of(name, names, source), found, places.get(name, {}), backlash.get(name, 0.0), source)
@@ -106,19 +97,10 @@ def read(data: bytes, source: str, settings: Settings) -> tuple[ErrorTable, ...]
 def _table(axis: str, values: Mapping[int, float], place: Mapping[str, float], lost: float, source: str) -> ErrorTable:
     if not {"STEP", "MIN", "MAX"} <= set(place) or place["STEP"] <= 0:
         raise FormatError(f"{source}: {axis} has no STEP above zero, no MIN or no MAX; add what is missing")
-    count = round((place["MAX"] - place["MIN"]) / place["STEP"]) + 1
-    if sorted(values) != list(range(count)):
-        raise FormatError(f"{source}: {axis} has {len(values)} points where MIN, MAX and STEP make {count}; correct them")
-    unit = _unit(axis)
-    position = place["MIN"] + place["STEP"] * np.arange(count, dtype=float)
-    mean = np.array([values[k] for k in range(count)])
+    unit = degrees_or_mm(axis)
+    position, mean = even_column(values, place["MIN"], place["MAX"], place["STEP"], axis, source)
     both = mean[:, np.newaxis] + lost * np.array([-0.5, 0.5])
     return ErrorTable(axis, motion_of(axis), position / unit, both / unit, np.full_like(both, np.nan))
-
-
-def _unit(axis: str) -> float:
-    """Of the house in the unit of the control."""
-    return 180 / np.pi if axis in ROTARY else 1.0
 
 
 register(
@@ -128,7 +110,7 @@ register(
         "SINUMERIK leadscrew error compensation",
         takes,
         write,
-        can_read,
+        _INI.can_read,
         read,
         settings=(
             STEP,
