@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from elastogeo.changes.causes import Cause, Signatures
 from elastogeo.changes.change_points import ChangePoint
 from elastogeo.changes.charts import Charts, Judged, Running, start, step
-from elastogeo.changes.drifts import Drift
+from elastogeo.changes.drifts import DRIFT, STEP, Drift
 from elastogeo.changes.due_dates import DUE, NEVER_TESTED, NOT_ASKED, NOT_DUE, OVERDUE, DueDate, due_after, due_of, due_on
 from elastogeo.changes.events import Event, OpenAlarm
 from elastogeo.changes.fleets import MACHINE_STATES, FleetState, MachineRow, MachineState
@@ -28,11 +28,9 @@ from elastogeo.changes.records import (
 from elastogeo.changes.references import Reference, reference_from, reference_of
 from elastogeo.changes.result import (
     ALARM,
-    DRIFT,
     NO_BASELINE,
     STATES,
     STEADY,
-    STEP,
     SUSPECT,
     WATCH,
     ChangeVerdict,
@@ -41,6 +39,7 @@ from elastogeo.changes.result import (
 )
 from elastogeo.changes.rules import Rule
 from elastogeo.changes.series import Baseline, Indicator, Series, Tolerance
+from elastogeo.changes.verdicts import judge
 from elastogeo.discovery import first_use
 
 if TYPE_CHECKING:
@@ -101,6 +100,7 @@ __all__ = [
     "due_on",
     "fleet_prior",
     "indicators_of",
+    "judge",
     "recomputed_same",
     "reference_from",
     "reference_of",

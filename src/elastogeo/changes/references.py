@@ -173,6 +173,8 @@ def _temperatures(shown: Marks, temperature: Array | None) -> Array:
 def _tells_slope(shown: Marks, warm: Array) -> Marks:
     """Whether all tests of the baseline have a temperature, they are enough, and far enough apart."""
     known = ~np.any(shown & np.isnan(warm), axis=-2)
-    span = np.max(np.where(shown, warm, -np.inf), axis=-2) - np.min(np.where(shown, warm, np.inf), axis=-2)
+    span = np.max(np.where(shown, warm, -np.inf), axis=-2, initial=-np.inf) - np.min(
+        np.where(shown, warm, np.inf), axis=-2, initial=np.inf
+    )
     tells: Marks = known & (np.sum(shown, axis=-2) >= LEAST_TEMPERATURES) & (span >= LEAST_RANGE)
     return tells

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from elastogeo.changes.causes import Cause
 from elastogeo.changes.change_points import ChangePoint
-from elastogeo.changes.drifts import Drift
+from elastogeo.changes.drifts import DRIFT, STEP, Drift
 from elastogeo.changes.due_dates import DueDate
 from elastogeo.changes.events import Event, OpenAlarm
 from elastogeo.changes.kinds import Kind
@@ -24,8 +24,8 @@ ALARM = "alarm"
 STATES = (ALARM, SUSPECT, WATCH, NO_BASELINE, STEADY)
 """Of a series and of an indicator, the worst first."""
 
-STEP = "step"
-DRIFT = "drift"
+SHAPES = (STEP, DRIFT)
+"""Of a change."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
