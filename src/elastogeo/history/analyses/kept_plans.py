@@ -1,0 +1,131 @@
+"""Plans of tests: kept with a date until which they are to be done, and done by a person who says so."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from datetime import datetime
+from math import isfinite
+from typing import Any
+
+from sqlalchemy import Connection, Row, insert, select, update
+
+from elastogeo.changes import KeptPlan, due_on
+from elastogeo.errors import InputError
+from elastogeo.history.series_of import days
+from elastogeo.history.store import Store, audit, now, write
+from elastogeo.history.store.schema import machine, plan
+
+SCHEMA = "elastogeo.plan/1"
+
+
+def keep_plan(
+    store: Store,
+    owner: int,
+    name: str,
+    document: Mapping[str, Any],
+    due: datetime | None = None,
+    grace: float = 7.0,
+    who: str = "",
+) -> int:
+    """Keep a plan for a machine.
+
+    Parameters
+    ----------
+    store : Store
+    owner : int
+        Key of the machine.
+    name : str
+        That no other plan of the machine has.
+    document : mapping
+        `elastogeo.plan/1`, as `elastogeo plan --json` prints it: `eg.plan(...).to_dict()`.
+    due : datetime, optional
+        With its zone; until when it is to be done.
+    grace : float [d]
+        After which it is overdue.
+    who : str
+        For the audit trail.
+
+    Returns
+    -------
+    int
+        Its key.
+
+    Raises
+    ------
+    InputError
+        If this is no plan, the machine has one of this name, or there is no such machine.
+    """
+    if document.get("schema") != SCHEMA or not isinstance(document.get("tests"), list):
+        raise InputError(
+            f"this is {document.get('schema') or 'no document of elastogeo'}, not a plan; print one: plan --json"
+        )
+    if not name.strip():
+        raise InputError("the plan has no name; give it one that the machine's other plans do not have")
+    if not (isfinite(grace) and grace >= 0):
+        raise InputError(f"the grace is {grace:g} days; give zero or more")
+    with write(store) as connection:
+        called = connection.execute(select(machine.c.name).where(machine.c.id == owner)).scalar_one_or_none()
+        if called is None:
+            raise InputError(f"there is no machine {owner}; `elastogeo history list` shows those that there are")
+        if connection.execute(select(plan.c.id).where(plan.c.machine == owner, plan.c.name == name)).first():
+            raise InputError(f"{called} has a plan {name!r} already; give this one another name")
+        row = {"machine": owner, "name": name, "made_at": now(), "due": due, "grace_days": grace, "document": dict(document)}
+        key = int(connection.execute(insert(plan).values(**row).returning(plan.c.id)).scalar_one())
+        new = {"machine": called, "name": name, "due": None if due is None else due.isoformat(), "grace_days": grace}
+        audit.record(connection, who, "keep plan", f"plan {key}", new=new)
+    return key
+
+
+def finish_plan(store: Store, key: int, who: str, why: str = "") -> None:
+    """Say that a plan was done; from then on it is not due.
+
+    Raises
+    ------
+    InputError
+        If there is no such plan, or it is done already.
+    """
+    with write(store) as connection:
+        row = connection.execute(select(plan.c.name, plan.c.done_at).where(plan.c.id == key)).one_or_none()
+        if row is None:
+            raise InputError(f"there is no plan {key}; `elastogeo history plan` lists them")
+        if row.done_at is not None:
+            raise InputError(f"plan {row.name!r} was done on {row.done_at:%Y-%m-%d} already")
+        done = now()
+        connection.execute(update(plan).where(plan.c.id == key).values(done_at=done))
+        audit.record(connection, who, "finish plan", f"plan {key}", {"done_at": None}, {"done_at": done.isoformat()}, why)
+
+
+def plans(connection: Connection, at: datetime, of: int | None = None) -> tuple[KeptPlan, ...]:
+    """The plans of a machine, or of all: overdue first, then by their date; those without one and the done ones last.
+
+    Parameters
+    ----------
+    connection : Connection
+    at : datetime
+        When this is asked.
+    of : int, optional
+        Key of a machine.
+    """
+    asked = select(plan, machine.c.name.label("owner")).join(machine, machine.c.id == plan.c.machine).order_by(plan.c.id)
+    rows = connection.execute(asked if of is None else asked.where(plan.c.machine == of))
+    found = [_kept(row, days(at)) for row in rows]
+    return tuple(sorted(found, key=_urgency))
+
+
+def _kept(row: Row[Any], at: float) -> KeptPlan:
+    due = None if row.due is None or row.done_at is not None else days(row.due)
+    return KeptPlan(
+        key=row.id,
+        machine=row.owner,
+        name=row.name,
+        made_at=days(row.made_at),
+        due=due_on(due, row.grace_days, at),
+        done_at=None if row.done_at is None else days(row.done_at),
+        tests=tuple(one["name"] for one in row.document["tests"]),
+        minutes=row.document.get("minutes"),
+        document=row.document,
+    )
+
+
+def _urgency(one: KeptPlan) -> tuple[bool, bool, float]:
+    return one.done_at is not None, one.due.at is None, one.due.at or 0.0
