@@ -78,7 +78,11 @@ def show_view(view: View) -> None:
     for sentence in view.alert:
         say(sentence)
     say("")
+    if view.badge is not None:
+        say(f"{view.badge.mark} {view.badge.text}")
     say(view.sentence)
+    for sentence in view.advice:
+        say(sentence)
     for table in view.tables:
         say("")
         show_table(table)

@@ -15,7 +15,7 @@ from elastogeo.report.numbers import display_unit
 from elastogeo.report.page import save_report
 from elastogeo.report.sentences import sentence_of
 from elastogeo.report.text import label, said_value
-from elastogeo.report.view import Table, View, view_of
+from elastogeo.report.view import Table, View, line_of, view_of
 from elastogeo.result import register
 
 _MARKS = {True: "  ok", False: "look", None: " n/t"}
@@ -24,9 +24,11 @@ _MARKS = {True: "  ok", False: "look", None: " n/t"}
 class _Renderer:
     """What `elastogeo.result.Renderer` asks for."""
 
-    def line(self, shown: Parameter | Check) -> str:
+    def line(self, shown: object) -> str:
         if isinstance(shown, Check):
             return f"{_MARKS[shown.passed]}  {shown.name}: {sentence_of(shown)}"
+        if not isinstance(shown, Parameter):
+            return line_of(shown)
         unit = display_unit(shown.unit, shown.reach)
         level = "without an interval" if shown.interval is None else "95 %"
         return f"{label(shown)} = {said_value(shown, unit)} {unit.name} ({level})"
@@ -58,7 +60,8 @@ class _Renderer:
 
 def _title(view: View) -> str:
     origin = " (simulated)" if view.origin else ""
-    return f"{view.kind}: {view.title}, {view.subtitle}{origin}"
+    state = f"\n{view.badge.mark} {view.badge.text}" if view.badge is not None else ""
+    return f"{view.kind}: {view.title}, {view.subtitle}{origin}{state}"
 
 
 def _attention(view: View) -> list[str]:

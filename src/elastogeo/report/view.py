@@ -42,6 +42,24 @@ class Said:
 
 
 @dataclass(frozen=True, slots=True)
+class Badge:
+    """A state in shape and words, before the answer: `■`, `Alarm since 11 June 2026`.
+
+    Attributes
+    ----------
+    mark : str
+        A shape of its own for each state.
+    text : str
+    tone : str
+        `bad`, `care`, `good` or `none`: its colour, which says nothing that the words do not.
+    """
+
+    mark: str
+    text: str
+    tone: str
+
+
+@dataclass(frozen=True, slots=True)
 class KeyValue:
     """One of the few numbers of the first screen: `C_XXX`, `61.92 ± 0.12`, `nm/N`, and what it is."""
 
@@ -163,6 +181,10 @@ class View:
         All else, folded on the page.
     scene : Scene or None
         A picture that can be turned, for a page of its own.
+    badge : Badge or None
+        The state of what is watched; none of a single test.
+    advice : tuple of str
+        What belongs to the answer and to the first screen: what it cannot tell, what to do next.
     document : mapping
         As JSON: plain types, nothing rounded.
     rows : sequence of mapping
@@ -185,6 +207,8 @@ class View:
     notes: tuple[str, ...] = ()
     sections: tuple[Section, ...] = ()
     scene: Scene | None = None
+    badge: Badge | None = None
+    advice: tuple[str, ...] = ()
 
     @property
     def attention(self) -> tuple[Said, ...]:
@@ -212,6 +236,7 @@ class View:
 
 T = TypeVar("T")
 _VIEWS: dict[type, Callable[[Any], View]] = {}
+_LINES: dict[type, Callable[[Any], str]] = {}
 
 
 def views(kind: type[T]) -> Callable[[Callable[[T], View]], Callable[[T], View]]:
@@ -224,6 +249,27 @@ def views(kind: type[T]) -> Callable[[Callable[[T], View]], Callable[[T], View]]
     return register
 
 
+def lines(kind: type[T]) -> Callable[[Callable[[T], str]], Callable[[T], str]]:
+    """Register the function that says parts of results of this type in one line; it lies in a file of views."""
+
+    def register(say: Callable[[T], str]) -> Callable[[T], str]:
+        _LINES[kind] = say
+        return say
+
+    return register
+
+
+def line_of(part: object) -> str:
+    """A part of a result in one line.
+
+    Raises
+    ------
+    KeyError
+        If no wing says parts of this type.
+    """
+    return _found(_LINES, type(part))(part)
+
+
 def view_of(result: object) -> View:
     """The view of a result of any kind.
 
@@ -232,10 +278,7 @@ def view_of(result: object) -> View:
     KeyError
         If no wing makes a view of results of this type.
     """
-    unread = _view_files(type(result))
-    while type(result) not in _VIEWS and (file := next(unread, None)):
-        import_module(file)
-    return _VIEWS[type(result)](result)
+    return _found(_VIEWS, type(result))(result)
 
 
 def said(checks: Iterable[Check]) -> tuple[Said, ...]:
@@ -254,6 +297,14 @@ def attention_sentence(checks: Iterable[Check]) -> str:
     ]
     text = ", ".join(part for part in parts if part)
     return f"{text[:1].upper()}{text[1:]}."
+
+
+def _found(register: Mapping[type, Callable[[Any], T]], kind: type) -> Callable[[Any], T]:
+    """What is registered for a type; files of views are imported until it is."""
+    unread = _view_files(kind)
+    while kind not in register and (file := next(unread, None)):
+        import_module(file)
+    return register[kind]
 
 
 def _view_files(kind: type) -> Iterator[str]:
