@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pytest
 
-from elastogeo.history.store import Store, clock, open_store
+from elastogeo.history.store import Files, Store, clock, open_store
 
 KINDS = ("truncate", "wal", "postgresql")
 _FILES = "ELASTOGEO_FILES"
@@ -132,6 +132,8 @@ def _place(kind: str, whole: bool, folder: Path, patch: pytest.MonkeyPatch, requ
         server: Server = request.getfixturevalue("server")
         name = server.database(request.getfixturevalue("made")[kind] if whole else "template0")
         patch.setenv(_FILES, str(folder / "files"))
+        if whole:
+            Files(folder / "files").make()
         yield server.url(name)
         server.drop(name)
         return
@@ -139,6 +141,7 @@ def _place(kind: str, whole: bool, folder: Path, patch: pytest.MonkeyPatch, requ
     file = folder / "history.db"
     if whole:
         shutil.copyfile(request.getfixturevalue("made")[kind], file)
+        Files(folder / "history.db.files").make()
     yield str(file)
 
 

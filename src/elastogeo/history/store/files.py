@@ -6,6 +6,7 @@ hash for a name, is harmless, and is cleared a day later.
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 import re
@@ -24,6 +25,7 @@ _INCOMING = "incoming"
 _STALE = 86_400.0  # s after which nobody is writing an incoming file any more
 _HASH = re.compile(r"[0-9a-f]{64}")
 _BLOCK = 2**20
+_NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +38,14 @@ class Files:
     """
 
     folder: Path
+
+    def make(self) -> None:
+        """Make the folder, if it is not there."""
+        try:
+            (self.folder / _INCOMING).mkdir(parents=True, exist_ok=True)
+            _flush_folder(self.folder.parent)
+        except OSError as error:
+            raise StoreError(f"{self.folder}: {error.strerror}; the raw files need a folder that can be written") from error
 
     def put(self, source: Path | bytes) -> str:
         """Keep a file: its SHA-256. What is there already is not written again.
@@ -113,10 +123,12 @@ class Files:
     def _write(self, source: Path | bytes, sha256: str) -> set[Path]:
         """Write a file in its place; the folders whose entries changed."""
         path = self.path(sha256)
+        if not self.folder.is_dir():
+            raise StoreError(f"{self.folder}: the folder of the raw files is not there; put it back, or name where it is")
         made = {path.parent} if path.parent.is_dir() else {path.parent, self.folder}
         incoming = self.folder / _INCOMING / secrets.token_hex(16)
         try:
-            incoming.parent.mkdir(parents=True, exist_ok=True)
+            incoming.parent.mkdir(exist_ok=True)
             path.parent.mkdir(exist_ok=True)
             digest = hashlib.sha256()
             with open(incoming, "xb") as file:
@@ -125,11 +137,14 @@ class Files:
                     file.write(block)
                 file.flush()
                 os.fsync(file.fileno())
+                if os.name == "posix":
+                    os.fchmod(file.fileno(), 0o444)  # nobody changes it by chance
             if digest.hexdigest() != sha256:
                 raise StoreError(f"{source!s}: changed while it was read; import it again when it is whole")
             os.replace(incoming, path)
         except OSError as error:
-            raise StoreError(f"{path}: {error.strerror}; nothing was kept of it; free some room, then repeat") from error
+            todo = "; free some room, then repeat" if error.errno in _NO_ROOM else ""
+            raise StoreError(f"{error.filename or path}: {error.strerror}; nothing was kept of it{todo}") from error
         finally:
             with suppress(OSError):
                 incoming.unlink(missing_ok=True)

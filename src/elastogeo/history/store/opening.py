@@ -73,6 +73,7 @@ def open_store(url: str | Path, create: bool = False, *, files: str | Path | Non
     store = Store(engine, Files(place.files), place.url)
     weakref.finalize(store, engine.dispose)
     if create:
+        store.files.make()
         with _writing(store, migrates=True) as connection:
             upgrade(connection, place.url, who or audit.login())
     else:

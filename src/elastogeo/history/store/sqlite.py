@@ -23,6 +23,7 @@ DRIVER_VARIABLE = "ELASTOGEO_SQLITE"
 """Names a module to use in place of Python's own `sqlite3`: `pysqlite3` brings a newer library."""
 WAIT = 30.0
 """How long a writer waits for another [s]."""
+_SWITCH = 300  # ms to wait for another before its journal is left as it is
 _MENDED = ((3, 51, 3), (3, 50, 7), (3, 44, 6))
 
 
@@ -91,6 +92,9 @@ def sqlite_engine(file: Path, library: ModuleType) -> Engine:
         connection.exec_driver_sql(f"PRAGMA query_only = {'OFF' if writes else 'ON'}")
         connection.exec_driver_sql(f"PRAGMA foreign_keys = {'OFF' if migrates else 'ON'}")
         connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
+        if writes and faulty and connection.exec_driver_sql("PRAGMA journal_mode").scalar() == "wal":
+            connection.exec_driver_sql("ROLLBACK")  # another program has changed it since this connection was made
+            raise _refused_wal(file)
 
     return engine
 
@@ -100,16 +104,23 @@ def _set_journal(connection: Any, file: Path, faulty: bool) -> None:
     wanted = "truncate" if faulty else "wal"
     if connection.execute("PRAGMA journal_mode").fetchone()[0] == wanted:
         return
+    connection.execute(f"PRAGMA busy_timeout = {_SWITCH}")
     try:
         got = connection.execute(f"PRAGMA journal_mode = {wanted}").fetchone()[0]
     except Exception as error:
         if "locked" not in str(error):
             raise
         got = "locked"
+    finally:
+        connection.execute(f"PRAGMA busy_timeout = {WAIT * 1000:.0f}")
     if faulty and got != wanted:
-        raise StoreError(
-            f"{file}: another program writes it in WAL mode; the SQLite of this one has a fault that "
-            "may then damage the file; close the other program, or use a Python with SQLite 3.51.3 or later"
-        )
+        raise _refused_wal(file)
     if got != wanted:
         connection.execute("PRAGMA journal_mode = truncate")
+
+
+def _refused_wal(file: Path) -> StoreError:
+    return StoreError(
+        f"{file}: another program writes it in WAL mode; the SQLite of this one has a fault that may then damage the file; "
+        "close the other program, or use a Python with SQLite 3.51.3 or later"
+    )

@@ -7,6 +7,8 @@ number of steps, a migration is one transaction. Rows that are frozen are thawed
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from sqlalchemy import Connection, inspect, text
 
 from elastogeo.errors import StoreError
@@ -17,7 +19,8 @@ from elastogeo.version import VERSION
 REVISIONS = ("0001",)
 """The schemas that there were, the oldest first; the last one is that of `schema.py`."""
 VERSION_TABLE = "schema_version"
-_SCRIPTS = "elastogeo.history.store:migrations"
+FOLDERS = (Path(__file__).parent / "versions",)
+"""Where the steps from each schema to the next are."""
 
 
 def revision(connection: Connection) -> str | None:
@@ -83,7 +86,9 @@ def _run(connection: Connection) -> None:
     from alembic.config import Config
 
     configuration = Config(attributes={"connection": connection})
-    configuration.set_main_option("script_location", _SCRIPTS)
+    configuration.set_main_option("script_location", str(Path(__file__).parent).replace("%", "%%"))
+    configuration.set_main_option("path_separator", "newline")
+    configuration.set_main_option("version_locations", "\n".join(map(str, FOLDERS)).replace("%", "%%"))
     thaw(connection)
     run(configuration, "head")
     freeze(connection)
