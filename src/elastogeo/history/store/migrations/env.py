@@ -11,7 +11,6 @@ context.configure(
     version_table=VERSION_TABLE,
     transactional_ddl=True,
     render_as_batch=True,
-    compare_server_default=True,
 )
 with context.begin_transaction():
     context.run_migrations()

@@ -115,6 +115,7 @@ def _what_was_measured() -> None:
         sa.PrimaryKeyConstraint("id", name=op.f("pk_test")),
         sa.UniqueConstraint("sha256", name=op.f("uq_test_sha256")),
     )
+    op.create_index(op.f("ix_test_series_at"), "test", ["series", "at"])
     op.create_table(
         "test_file",
         sa.Column("id", KEY, nullable=False),
@@ -137,6 +138,7 @@ def _what_was_measured() -> None:
         sa.ForeignKeyConstraint(["test"], ["test.id"], name=op.f("fk_set_aside_test_test")),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_set_aside")),
     )
+    op.create_index(op.f("ix_set_aside_test"), "set_aside", ["test"])
 
 
 def _what_it_says() -> None:
@@ -226,6 +228,7 @@ def _what_is_ordinary() -> None:
         sa.ForeignKeyConstraint(["machine"], ["machine.id"], name=op.f("fk_event_machine_machine")),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_event")),
     )
+    op.create_index(op.f("ix_event_machine_at"), "event", ["machine", "at"])
     op.create_table(
         "baseline",
         sa.Column("id", KEY, nullable=False),
@@ -238,6 +241,7 @@ def _what_is_ordinary() -> None:
         sa.ForeignKeyConstraint(["series"], ["series.id"], name=op.f("fk_baseline_series_series")),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_baseline")),
     )
+    op.create_index(op.f("ix_baseline_series"), "baseline", ["series"])
     op.create_table(
         "tolerance",
         sa.Column("id", KEY, nullable=False),
@@ -252,6 +256,7 @@ def _what_is_ordinary() -> None:
         sa.ForeignKeyConstraint(["series"], ["series.id"], name=op.f("fk_tolerance_series_series")),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_tolerance")),
     )
+    op.create_index(op.f("ix_tolerance_series"), "tolerance", ["series"])
     op.create_table(
         "series_state",
         sa.Column("series", KEY, nullable=False),
@@ -264,6 +269,7 @@ def _what_is_ordinary() -> None:
         sa.ForeignKeyConstraint(["series"], ["series.id"], name=op.f("fk_series_state_series_series")),
         sa.PrimaryKeyConstraint("series", name=op.f("pk_series_state")),
     )
+    op.create_index(op.f("ix_series_state_state"), "series_state", ["state"])
 
 
 def _alarms() -> None:
@@ -279,6 +285,7 @@ def _alarms() -> None:
         sa.ForeignKeyConstraint(["series"], ["series.id"], name=op.f("fk_alarm_series_series")),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_alarm")),
     )
+    op.create_index(op.f("ix_alarm_series"), "alarm", ["series"])
     op.create_table(
         "alarm_step",
         sa.Column("id", KEY, nullable=False),
@@ -297,6 +304,7 @@ def _alarms() -> None:
         sa.ForeignKeyConstraint(["test"], ["test.id"], name=op.f("fk_alarm_step_test_test")),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_alarm_step")),
     )
+    op.create_index(op.f("ix_alarm_step_alarm"), "alarm_step", ["alarm"])
     op.create_table(
         "silence",
         sa.Column("id", KEY, nullable=False),
@@ -339,6 +347,7 @@ def _messages() -> None:
         sa.PrimaryKeyConstraint("id", name=op.f("pk_outbox")),
         sa.UniqueConstraint("step", "recipient", name=op.f("uq_outbox_step_recipient")),
     )
+    op.create_index(op.f("ix_outbox_state_next_at"), "outbox", ["state", "next_at"])
 
 
 def _who_did_what() -> None:
