@@ -211,7 +211,7 @@ def test_a_step_changes_frozen_rows_and_freezes_them_again(older: Store, url: st
     with open_store(url, create=True) as migrated:
         check_next(migrated)
         with write(migrated) as connection:
-            connection.execute(text("INSERT INTO machine (name, made_at) VALUES ('after', 0)"))
+            connection.execute(text("INSERT INTO machine (id, name, made_at) VALUES (9, 'after', 0)"))
         with read(migrated) as connection:
             kept = connection.execute(text("SELECT sha256, name FROM test")).all()
     assert kept == [(row_of(test)["sha256"], row_of(test)["name"])]
