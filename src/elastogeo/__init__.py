@@ -11,8 +11,8 @@ Where is this machine soft, where is it crooked, how sure are we, and what could
 
 This is the public face: what is listed here is what tutorials use, and nothing else is promised. A name is imported when it
 is used first, so that `import elastogeo` costs nothing. The rooms behind it, from the ground up: `estimate`, `machine`,
-`drive`, `observe`, `sources`, `formats`, `identification`, `prediction`, `planning`, `report`, `recording`, `cli`; imports
-only go down.
+`drive`, `observe`, `sources`, `formats`, `identification`, `prediction`, `planning`, `changes`, `report`, `history`,
+`recording`, `cli`; imports only go down.
 """
 
 from importlib import import_module
@@ -42,6 +42,7 @@ if TYPE_CHECKING:
         write_program,
         write_tests,
     )
+    from elastogeo.history import History
     from elastogeo.identification import (
         calibrate,
         compare,
@@ -66,6 +67,7 @@ _HOME = {
     "Campaign": "observe",
     "ElastogeoError": "errors",
     "Estimate": "estimate",
+    "History": "history",
     "InputError": "errors",
     "Machine": "machine",
     "MachineTest": "observe",
@@ -110,6 +112,7 @@ __all__ = [
     "Campaign",
     "ElastogeoError",
     "Estimate",
+    "History",
     "InputError",
     "Machine",
     "MachineTest",

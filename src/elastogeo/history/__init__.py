@@ -5,3 +5,21 @@ altered. Fills the results of `changes` and keeps the JSON of the views of `repo
 The ground wing is `store`: tables, engine, migrations, files, audit trail. SQLAlchemy and Alembic come with the extra
 `history`.
 """
+
+from typing import TYPE_CHECKING, Any
+
+from elastogeo.discovery import first_use
+from elastogeo.history.extra import needs_history_extra
+
+if TYPE_CHECKING:
+    from elastogeo.history.history import Added, History
+
+_found = first_use(__name__, {"history": "Added History"})
+
+__all__ = ["Added", "History"]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a name of the face where it is used first (PEP 562)."""
+    with needs_history_extra():
+        return _found(name)

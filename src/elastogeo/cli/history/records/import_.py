@@ -1,0 +1,88 @@
+"""`elastogeo history import`: tests into the history, the oldest first."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+import elastogeo as eg
+from elastogeo.cli.options import STORE, AsJson, Store, Who
+
+if TYPE_CHECKING:
+    from elastogeo.history import Added
+
+Machine = Annotated[str | None, typer.Option("--machine", "-m", help="The machine, by name; else as the test says.")]
+
+
+def import_(
+    paths: Annotated[list[Path], typer.Argument(metavar="PATH...", help="A test, or a folder with tests in folders in it.")],
+    machine: Machine = None,
+    repeats: Annotated[
+        str | None, typer.Option(help="The suspect test that this one repeats: its number, last, or none; else found.")
+    ] = None,
+    date: Annotated[str, typer.Option(help="When it was measured, if the test does not say so.")] = "",
+    store: Store = STORE,
+    who: Who = "",
+    as_json: AsJson = False,
+) -> None:
+    """Import tests: keep their files, analyse them, say what has changed.
+
+    A test that is there already is left as it is, whatever its folder is called.
+
+    \b
+    Examples:
+      elastogeo history import march --machine "Mill 3"
+      elastogeo history import years-of-tests --store shop.db
+    """
+    from elastogeo.cli import screen
+
+    with eg.History(store, who=who) as history:
+        found: list[Added] = []
+        for path in paths:
+            if repeats is not None:
+                added = [history.add(path, machine=machine, repeats=repeats, date=date)]
+            else:
+                added = history.add_all(path, machine=machine, date=date)  # type: ignore[assignment]
+            for one in added:
+                found.append(one)
+                if not as_json:
+                    _tell(one)
+    refused = [one for one in found if one.error]
+    if as_json:
+        screen.show_json({"schema": "elastogeo.imports/1", "tests": [_document(one) for one in found]})
+    elif len(found) > 1:
+        new = sum(1 for one in found if one.imported and one.imported.new)
+        screen.say(f"{new} new, {len(found) - new - len(refused)} known already, {len(refused)} refused.")
+    if refused:
+        raise typer.Exit(2)
+
+
+def _tell(one: Added) -> None:
+    from elastogeo.cli import screen
+
+    for line in lines_of(one):
+        if one.error:
+            print(f"elastogeo: {line}", file=sys.stderr, flush=True)
+        else:
+            screen.say(line)
+
+
+def lines_of(one: Added) -> list[str]:
+    """What became of a test, in lines for a person."""
+    got = one.imported
+    if got is None:
+        return [one.error]
+    known = "" if got.new else " is known, nothing was changed"
+    head = f"Test {got.test}{known}: {got.name}, {got.machine}, {got.at:%Y-%m-%d}, {got.series_name}"
+    return [head, *(f"  {note}" for note in got.notes)]
+
+
+def _document(one: Added) -> dict[str, Any]:
+    got = one.imported
+    if got is None:
+        return {"path": str(one.path), "error": one.error}
+    return {"path": str(one.path), **asdict(got), "at": got.at.isoformat()}
