@@ -29,7 +29,7 @@ def import_(
     who: Who = "",
     as_json: AsJson = False,
 ) -> None:
-    """Import tests: keep their files, analyse them, say what has changed.
+    """Import tests, and say what has changed.
 
     A test that is there already is left as it is, whatever its folder is called.
 

@@ -18,7 +18,7 @@ def machine(
     store: Store = STORE,
     who: Who = "",
 ) -> None:
-    """Add a machine, or say more of one that is there.
+    """Add a machine, or say more of it.
 
     \b
     Example:
