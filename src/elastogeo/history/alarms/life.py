@@ -11,14 +11,7 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Any
 
-OPEN = "open"
-WORSE = "worse"
-HELD = "held"
-RELEASED = "released"
-ACKNOWLEDGED = "acknowledged"
-REPAIRED = "closed as repaired"
-FALSE = "closed as false"
-CLOSED = (REPAIRED, FALSE)
+from elastogeo.changes.alarms import ACKNOWLEDGED, CLOSED, HELD, OPEN, RELEASED, WORSE
 
 WORSE_BY = 0.5
 """Limits by which an indicator must grow beyond what was last recorded of it, for the alarm to be worse."""
@@ -59,21 +52,29 @@ class Found:
     alarming : bool
         Whether its state is an alarm: confirmed, or not confirmed within the wait.
     over : mapping of str to float
-        By indicator that is beyond its limit, how many limits; what one test alone says is not in it before the next or a
-        repeat says so too.
+        By indicator that is part of the alarm, how many limits it is away at the last test.
+    sure : mapping of str to float
+        The same, without what one test alone says: the last test or the one before, whichever is nearer to the baseline;
+        once the wait for a repeat is over, the last test.
     test : int or None
         Key of the last judged test.
     measured : datetime or None
         When that was made.
-    confirmed : bool or None
-        Whether a repeat confirmed it; None if there was none within the wait.
+    confirmed : bool
+        Whether a repeat confirmed it.
     """
 
     alarming: bool
     over: Mapping[str, float] = field(default_factory=dict)
+    sure: Mapping[str, float] = field(default_factory=dict)
     test: int | None = None
     measured: datetime | None = None
-    confirmed: bool | None = None
+    confirmed: bool = False
+
+    @property
+    def shown(self) -> bool:
+        """Whether the last test itself still shows the change; a state stays an alarm until a person closes it."""
+        return any(ratio >= 1 for ratio in self.over.values())
 
 
 def is_open(steps: Sequence[Step]) -> bool:
@@ -121,11 +122,12 @@ def steps_of(found: Found, alarm: Sequence[Step] = (), cleared: datetime | None 
     """
     if not found.alarming:
         return ()
-    facts = {"over": dict(found.over), "confirmed": found.confirmed}
     if not is_open(alarm):
         if cleared is not None and (found.measured is None or found.measured <= cleared):
             return ()
-        return (Step(OPEN, facts, found.test),)
+        return (Step(OPEN, {"over": dict(found.over), "confirmed": found.confirmed}, found.test),)
     before = recorded(alarm)
-    grown = [name for name, ratio in found.over.items() if ratio >= max(before.get(name, 1.0), 1.0) + WORSE_BY]
-    return (Step(WORSE, facts | {"grown": sorted(grown)}, found.test),) if grown else ()
+    grown = sorted(name for name, ratio in found.sure.items() if ratio >= max(before.get(name, 1.0), 1.0) + WORSE_BY)
+    if not grown:
+        return ()
+    return (Step(WORSE, {"over": dict(found.over), "confirmed": found.confirmed, "grown": grown}, found.test),)

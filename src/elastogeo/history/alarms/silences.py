@@ -1,0 +1,38 @@
+"""Silences: until when nothing is sent of a machine. What a silence holds is not lost: it is sent when it ends."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+from sqlalchemy import Connection, func, insert, select
+
+from elastogeo.errors import InputError
+from elastogeo.history.store import Store, audit, now, write
+from elastogeo.history.store.schema import machine, silence
+
+
+def silent_until(connection: Connection, at: datetime) -> dict[int, datetime]:
+    """By machine that is silent, until when; what was said last of a machine counts."""
+    last = select(func.max(silence.c.id)).group_by(silence.c.machine)
+    rows = connection.execute(select(silence.c.machine, silence.c.until).where(silence.c.id.in_(last), silence.c.until > at))
+    return {row.machine: row.until for row in rows}
+
+
+def silence_machine(store: Store, name: str, until: datetime, who: str, why: str) -> None:
+    """Send nothing of a machine until then; a time that is past ends a silence.
+
+    Raises
+    ------
+    InputError
+        If there is no such machine, no reason, or the time has no zone.
+    """
+    if not why.strip():
+        raise InputError("a silence needs a reason, for whoever asks why nobody was told; give it with --why")
+    if until.tzinfo is None:
+        raise InputError(f"{until} has no time zone; a silence ends at a point in time")
+    with write(store) as connection:
+        key = connection.scalar(select(machine.c.id).where(machine.c.name == name))
+        if key is None:
+            raise InputError(f"there is no machine {name!r}; `elastogeo history list` shows those that there are")
+        connection.execute(insert(silence).values(machine=key, until=until, at=now(), who=who, why=why))
+        audit.record(connection, who, "silence", f"machine {name}", None, until.isoformat(), why)
