@@ -1,4 +1,4 @@
-"""The outbox and the acts of a person: each message once, also with failures, crashes, two senders and clocks that go back."""
+"""The outbox and the acts of a person: each message once, with failures, crashes, two senders, clocks that go back."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Box:
         self.sent: list[Message] = []
         self.error: DeliveryError | None = None
 
-    def send(self, message: Message, address: str, settings: object) -> None:
+    def send(self, message: Message, *_: object) -> None:
         if self.error is not None:
             raise self.error
         self.sent.append(message)
@@ -118,7 +118,7 @@ def test_waits_scatter_between_senders() -> None:
     assert wait_after(200, lambda: 1.0) == delivery.LONGEST
 
 
-def test_what_cannot_help_is_not_tried_again(store: Store, box: Box, standing_clock: Any) -> None:
+def test_what_cannot_help_is_not_tried_again(store: Store, box: Box) -> None:
     add_log(store, "anywhere", by="box")
     open_alarm_of(store, make_series(store))
     box.error = DeliveryError("no such mailbox", lasting=True)
@@ -135,9 +135,10 @@ def test_a_sender_that_dies_leaves_the_message_to_the_next_under_the_same_key(
     def dies(*_: object) -> None:
         raise KeyboardInterrupt
 
-    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+    with monkeypatch.context() as patch:
         patch.setattr(delivery, "_noted", dies)
-        deliver(store, {})
+        with pytest.raises(KeyboardInterrupt):
+            deliver(store, {})
     assert len(box.sent) == 1
     assert deliver(store, {}).tried == (), "its lease still runs"
     standing_clock.advance(minutes=16)
@@ -165,15 +166,14 @@ def test_two_senders_at_once_send_each_message_once(store: Store, url: str, box:
     assert len({message.key for message in box.sent}) == len(box.sent) == 6
 
 
-def test_no_transaction_is_open_while_a_message_is_sent(
-    store: Store, url: str, box: Box, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.mark.usefixtures("box")
+def test_no_transaction_is_open_while_a_message_is_sent(store: Store, url: str, monkeypatch: pytest.MonkeyPatch) -> None:
     add_log(store, "anywhere", by="box")
     series = make_series(store)
     open_alarm_of(store, series)
     written = []
 
-    def send(message: Message, address: str, settings: object) -> None:
+    def send(*_: object) -> None:
         with open_store(url) as other:
             written.append(make_test(other, series, START, {}))
 
@@ -252,7 +252,7 @@ def test_acknowledge_needs_a_reason_and_stays_with_its_person(store: Store) -> N
         assert audit.verify(connection) == ()
 
 
-def test_the_end_is_told_to_whoever_was_told_of_the_beginning(store: Store, box: Box, standing_clock: Any) -> None:
+def test_the_end_is_told_to_whoever_was_told_of_the_beginning(store: Store, box: Box) -> None:
     add_log(store, "first", by="box")
     number = open_alarm_of(store, make_series(store))
     deliver(store, {})

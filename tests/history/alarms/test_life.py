@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime, timedelta
+from itertools import pairwise
 
 import pytest
 from hypothesis import given
@@ -163,4 +164,4 @@ def test_any_life_has_one_open_alarm_and_tells_each_change_once(acts: list[tuple
         assert steps[0].state == OPEN
         assert all(step.state not in CLOSED for step in steps[:-1]), "nothing follows a close"
         most = [recorded(steps[: k + 1]).get("x", 0.0) for k, step in enumerate(steps) if step.state in (OPEN, WORSE)]
-        assert all(later >= max(earlier, 1.0) + WORSE_BY for earlier, later in zip(most, most[1:], strict=False))
+        assert all(later >= max(earlier, 1.0) + WORSE_BY for earlier, later in pairwise(most))
