@@ -60,8 +60,8 @@ def keep_campaign(store: Store, text: str, tests: Mapping[str, int], who: str = 
     FormatError
         If the text is no campaign file.
     InputError
-        If the file names other tests than are given, they are not of one machine of the history, or the machine has a
-        campaign of this name already.
+        If the file names other tests than are given, they are not of one machine of the history, the machine has a campaign
+        of this name already, or they cannot be asked together.
     StoreError
         If a raw file is missing or damaged, or nothing can be written.
     """
@@ -75,8 +75,9 @@ def keep_campaign(store: Store, text: str, tests: Mapping[str, int], who: str = 
         owner = _machine_of(connection, tests)
         _check_name(connection, owner, document["name"])
         raw = {folder: raw_files(connection, key) for folder, key in tests.items()}
-    content = _identified(store.files, text, raw)
-    content["tests"] = dict(tests)
+    content = _identified(store.files, text, raw) | {"tests": dict(tests)}
+    if content["error"]:
+        raise InputError(f"campaign {document['name']!r} says nothing that could be kept: {content['error']}")
     with write(store) as connection:
         _check_name(connection, owner, document["name"])
         row = {"machine": owner, "name": document["name"], "made_at": now(), "content": content}

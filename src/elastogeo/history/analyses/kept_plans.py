@@ -53,16 +53,17 @@ def keep_plan(
     Raises
     ------
     InputError
-        If this is no plan, the machine has one of this name, or there is no such machine.
+        If this is no plan, a date has no zone, the machine has a plan of this name, or there is no such machine.
     """
     if document.get("schema") != SCHEMA or not isinstance(document.get("tests"), list):
-        raise InputError(
-            f"this is {document.get('schema') or 'no document of elastogeo'}, not a plan; print one: plan --json"
-        )
+        arrived = document.get("schema") or "a document without a schema"
+        raise InputError(f"this is {arrived}, not a plan ({SCHEMA}); print one: elastogeo plan ... --json")
     if not name.strip():
         raise InputError("the plan has no name; give it one that the machine's other plans do not have")
     if not (isfinite(grace) and grace >= 0):
         raise InputError(f"the grace is {grace:g} days; give zero or more")
+    if due is not None and due.tzinfo is None:
+        raise InputError(f"the due date {due} has no time zone; write 2026-05-01T00:00+00:00, or give it one")
     with write(store) as connection:
         called = connection.execute(select(machine.c.name).where(machine.c.id == owner)).scalar_one_or_none()
         if called is None:
