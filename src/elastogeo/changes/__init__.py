@@ -43,7 +43,7 @@ from elastogeo.changes.verdicts import judge
 from elastogeo.discovery import first_use
 
 if TYPE_CHECKING:
-    from elastogeo.changes.indicators import indicators_of
+    from elastogeo.changes.indicators import indicators_of, signatures_of
 from elastogeo.changes.series import MOST
 
 __all__ = [
@@ -104,8 +104,9 @@ __all__ = [
     "recomputed_same",
     "reference_from",
     "reference_of",
+    "signatures_of",
     "start",
     "step",
 ]
 
-__getattr__ = first_use(__name__, {"indicators": "indicators_of"})
+__getattr__ = first_use(__name__, {"indicators": "indicators_of signatures_of"})

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from elastogeo.changes.causes import Signatures
 from elastogeo.changes.kinds import Kind
 from elastogeo.equality import ByValue
 from elastogeo.machine import Array
@@ -70,6 +71,8 @@ class Series(ByValue):
         From what the tests are simulated; empty if they were measured.
     machine : str
         The very machine: `Hermle C50 no. 3`; empty where the name of the series says all.
+    signatures : Signatures or None
+        How faults of the machine's components move the indicators of this recipe (`signatures_of` one of its results).
     """
 
     name: str
@@ -85,6 +88,7 @@ class Series(ByValue):
     instruments: tuple[str, ...]
     simulated: str = ""
     machine: str = ""
+    signatures: Signatures | None = None
 
     def __len__(self) -> int:
         return len(self.tests)

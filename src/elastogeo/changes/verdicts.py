@@ -8,7 +8,8 @@ from math import hypot, inf, nan, sqrt
 
 import numpy as np
 
-from elastogeo.changes.change_points import Since, change_point_of, since_baseline
+from elastogeo.changes.causes import Cause, causes_of
+from elastogeo.changes.change_points import ChangePoint, Since, change_point_of, since_baseline
 from elastogeo.changes.charts import start
 from elastogeo.changes.drifts import DRIFT, YEAR, Drift, Line, drift_of, line_of, shape_of
 from elastogeo.changes.priors import Prior
@@ -63,6 +64,8 @@ def judge(
         for k, name in enumerate(series.indicators)
     )
     waiting = series.tests[found.asked] if found.state == SUSPECT else ""
+    point = change_point_of(since, found.alarm != 0, _latest(found, found.alarm != 0))
+    causes, cannot_tell = ((), ()) if point is None else _causes(series, since, found, point)
     return ChangeVerdict(
         series=series,
         baseline=baseline,
@@ -75,9 +78,9 @@ def judge(
         steps=tuple(found.steps),
         not_judged=found.not_judged,
         indicators=indicators,
-        change_point=change_point_of(since, found.alarm != 0, _latest(found, found.alarm != 0)),
-        causes=(),
-        cannot_tell=(),
+        change_point=point,
+        causes=causes,
+        cannot_tell=cannot_tell,
         verdict=(),
     )
 
@@ -108,6 +111,23 @@ def _state(found: Replay, reference: Reference, indicators: Sequence[IndicatorSt
         return NO_BASELINE
     drifts = found.state == STEADY and any(one.state == WATCH and one.drift is not None for one in indicators)
     return WATCH if drifts else found.state
+
+
+def _causes(
+    series: Series, since: Since, found: Replay, point: ChangePoint
+) -> tuple[tuple[Cause, ...], tuple[tuple[str, ...], ...]]:
+    """What the whole set of indicators points to, those that did not move among them."""
+    if series.signatures is None:
+        return (), ()
+    known = since.reference
+    after = since.departure[since.tests.index(point.test) :]
+    number = np.sum(np.isfinite(after), axis=0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        change = np.nansum(after, axis=0) / number
+        heavy = known.degrees_of_freedom / np.maximum(known.degrees_of_freedom - 2, 1.0)  # of Student's t: its variance
+        deviation = known.deviation * np.sqrt(heavy * (1 / number + 1 / known.count))
+    changed = [name for name, side in zip(series.indicators, found.alarm, strict=True) if side]
+    return causes_of(change, deviation, series.signatures, series.indicators, changed)
 
 
 def _latest(found: Replay, chosen: Flags) -> int:

@@ -58,12 +58,12 @@ def of_an_identification(result: Identification) -> tuple[Indicator, ...]:
         return ()
     found = _by_scatter(knowledge).predict(np.array([one.row for one in asked]))
     every = zip(asked, found.value, found.standard_uncertainty, strict=True)
-    return tuple(_indicator(one, float(value), float(u)) for one, value, u in every if _has_value(one, value))
+    return tuple(_indicator(one, float(value), float(u)) for one, value, u in every if has_value(one, value))
 
 
 def asked_of(result: Identification, knowledge: Knowledge) -> tuple[Asked, ...]:
     """Every indicator that a test may determine, the most important first."""
-    around = _around(result)
+    around = around_of(result)
     axes = tuple(around.half)
     return (
         *_stiffness(knowledge, around),
@@ -81,7 +81,7 @@ def _by_scatter(knowledge: Knowledge) -> Span:
     return replace(span, systematic=np.zeros((len(span.value), 0)), freedoms=np.zeros(0))
 
 
-def _has_value(asked: Asked, value: float) -> bool:
+def has_value(asked: Asked, value: float) -> bool:
     """Whether the test determines it; a compliance that noise makes negative has no stiffness."""
     return isfinite(value) and (value > 0 or not asked.inverse)
 
@@ -95,7 +95,8 @@ def _indicator(asked: Asked, value: float, u: float) -> Indicator:
     )
 
 
-def _around(result: Identification) -> Around:
+def around_of(result: Identification) -> Around:
+    """Where the (first) test of a result moved the machine."""
     observations = next(iter(result.campaign.tests.values())).observations()
     machine = result.campaign.machine
     every = np.concatenate([run.commands for run in observations])
