@@ -1,6 +1,6 @@
 """The one exception tree of elastogeo.
 
-Every error says what arrived, where, why it will not do, and what to do about it. Two branches matter to a caller:
+Every error says what arrived, where, why it is refused, and what to do about it. Two branches matter to a caller:
 `InputError` (the input is wrong: exit code 2) and `UnsupportedError` (the input is sound but the data do not support
 the question: exit code 1).
 """

@@ -117,7 +117,7 @@ def test_wrong_input_ends_with_2_and_one_clear_error(my_test, elastogeo, tmp_pat
 
 def test_what_the_data_do_not_support_ends_with_1(my_test, elastogeo):
     asked = elastogeo("identify", my_test, "-p", "planar-xy", "--reference", "50")
-    refused(asked, 1, "the reference level 50 N cannot be taken off", "36, 742 N")
+    refused(asked, 1, "the reference level 50 N cannot be subtracted", "36, 742 N")
     asked = elastogeo("identify", my_test, "-p", "E_XX1", "--reference", "36")
     refused(asked, 1, "E_XX1", "changes any reading")
 

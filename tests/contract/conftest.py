@@ -269,7 +269,7 @@ CASES = tuple(
 )
 MEASURED = tuple(Case("ball-roller", arrangement) for arrangement in PRESSED)
 """The force of these is measured, so that it has an error of its own: they are held to the parts of the contract that do not
-count on exact forces. Their truth comes back to what that leaves, in `tests/observe/test_ball_roller.py`."""
+assume exact forces. Their truth comes back to what that leaves, in `tests/observe/test_ball_roller.py`."""
 
 
 @pytest.fixture(scope="session")

@@ -263,7 +263,7 @@ FORCE_PLANS = {
 
 @pytest.mark.parametrize("plan", FORCE_PLANS)
 def test_intervals_cover_at_their_rate(case: Case, plan: str) -> None:
-    """Noise is drawn per run, at every reading; the reference's mean is taken off, so its noise is shared by all."""
+    """Noise is drawn per run, at every reading; the reference's mean is subtracted, so its noise is shared by all."""
     forces, reference, repeats = FORCE_PLANS[plan]
     draws = DRAWS if case.is_typical else SHORT_DRAWS
     test = case.test(
@@ -340,7 +340,7 @@ def assert_same_answer(one: Identification, other: Identification, per_newton: f
     assert one.rmse == pytest.approx(other.rmse, rel=1e-10)
 
 
-@pytest.mark.parametrize("reference", [None, 36.0], ids=["raw", "reference taken off"])
+@pytest.mark.parametrize("reference", [None, 36.0], ids=["raw", "reference subtracted"])
 def test_the_answer_depends_on_no_convention(typical: Case, reference: float | None) -> None:
     """Start angle, direction, row order, order of the runs, unit of force."""
     forces = (36.0, 112.0, 490.0)

@@ -1,4 +1,4 @@
-"""The torque balance against simulated drives: truth, uncertainty, what it cannot tell apart and what separates it."""
+"""The torque balance against simulated drives: truth, uncertainty, what it cannot distinguish and what separates it."""
 
 from __future__ import annotations
 

@@ -94,7 +94,7 @@ BAD = {
     "start angle [deg]: 0\nstart_angle_rad: 0\nend angle [deg]: 90\n": "gives the start a second time",
     "start angle [deg]: 0\nend angle [deg]: 1,234\n": "'1,234' is not one number without doubt",
     "start angle [deg]: 0\nend angle [deg]: ninety\n": "'ninety' is not one number",
-    "start angle [deg]: 0\nend angle [deg]: 1e999\n": "'1e999' will not do",
+    "start angle [deg]: 0\nend angle [deg]: 1e999\n": "'1e999' is not valid",
     "start angle [deg]: 0\nend angle [deg]: 99999\n": "its end cannot be 1745.31",
     "start angle [deg]: 0\nsample rate [Hz]: 0\n": "it must be a finite number above zero",
 }

@@ -1,4 +1,4 @@
-"""Path and cut files: units are converted once, and what will not do is refused with what to do."""
+"""Path and cut files: units are converted once, and what is wrong is refused with what to do."""
 
 from pathlib import Path
 

@@ -202,7 +202,7 @@ def test_rows_without_a_time_are_left_out_and_told() -> None:
             "of sample 2 has a zone or has none, unlike the first; use one kind",
         ),
         ("time_s,x_mm\n1,10\n2\n3,30\n", "f: line 3 has 1 cells, the header has 2; complete it or take it out"),
-        ("time_s,x_mm\n1,10\n2,2,0\n3,3,0\n", "f: 2 lines will not do"),
+        ("time_s,x_mm\n1,10\n2,2,0\n3,3,0\n", "f: 2 lines cannot be read"),
         ("time_s,x_mm,x_mm\n1,10,2\n", "f, line 1: several columns are named 'x_mm'"),
         ("time_s,x_mm\n", "no complete sample follows the column headers on line 1"),
         ("time_s,State\n1,a\n2,b\n", "no column but the clock holds numbers; columns of text, left out: State"),

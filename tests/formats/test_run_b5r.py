@@ -178,7 +178,7 @@ BAD = {
     "its start cannot be 1.74533e": document(run(), spec=SETUP + ARC.replace(">0<", ">1e9<")),
     "start and end angle are the same": document(run(), spec=SETUP + ARC.replace("360", "0")),
     "one reading makes no arc": document(run("1")),
-    "7 readings will not do.*\n.*reading 1 is '1,5', not a number.*\n(.*\n){4}.*and 2 more": document(run("1,5 " * 7)),
+    "7 readings cannot be read.*\n.*reading 1 is '1,5', not a number.*\n(.*\n){4}.*and 2 more": document(run("1,5 " * 7)),
     "reading 2 is 'nan'": document(run("1 nan")),
     "reading 1 is '1e999'": document(run("1e999 1")),
     "READINGS hold <READING>, not numbers": document(run("<READING>1</READING>")),

@@ -113,14 +113,14 @@ def test_bytes_that_are_no_text_are_refused(data: bytes, message: str) -> None:
 
 def test_all_bad_lines_are_counted_and_five_shown() -> None:
     text = "angle_deg,radial_um\n" + "".join(f"{n},{'x' if n % 3 else n}\n" for n in range(30_000))
-    with pytest.raises(FormatError, match=r"^f: 20000 lines will not do") as caught:
+    with pytest.raises(FormatError, match=r"^f: 20000 lines cannot be read") as caught:
         read_csv(text.encode(), "f")
     assert re.findall(r"^  line (\d+),", str(caught.value), flags=re.MULTILINE) == ["3", "4", "6", "7", "9"]
     assert str(caught.value).endswith("... and 19995 more")
 
 
 def test_all_header_problems_are_told_at_once() -> None:
-    with pytest.raises(FormatError, match=r"2 column headers will not do:\n  column 'angle'.*\n  column 'radial'"):
+    with pytest.raises(FormatError, match=r"2 column headers cannot be read:\n  column 'angle'.*\n  column 'radial'"):
         read_csv(b"angle,radial\n0,1\n", "f")
 
 

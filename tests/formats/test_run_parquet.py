@@ -43,8 +43,8 @@ def test_every_type_of_number_is_read(kind: pa.DataType) -> None:
     [
         ({"force_N": [1.0, None]}, "^f: row 2, column force_N: None is no reading; correct it"),
         ({"force_N": pa.array([1, None])}, "row 2, column force_N: None is no reading"),
-        ({"force_N": [float("nan")], "time_s": [float("inf")]}, "2 cells will not do.*\n.*force_N: nan.*\n.*time_s: inf"),
-        ({"force_N": [None] * 7 + [1.0]}, "7 cells will not do(.*\n){6}.*and 2 more"),
+        ({"force_N": [float("nan")], "time_s": [float("inf")]}, "2 cells cannot be read.*\n.*force_N: nan.*\n.*time_s: inf"),
+        ({"force_N": [None] * 7 + [1.0]}, "7 cells cannot be read(.*\n){6}.*and 2 more"),
         ({"force_N": ["a"]}, "column force_N is of type string; store it as numbers"),
         ({"force_N": [[1.0]]}, "column force_N is of type list.*; store it as numbers"),
         ({"force_N": [2**53 + 1]}, "column force_N has integers that a float64 would round"),

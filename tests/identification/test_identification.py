@@ -119,9 +119,9 @@ def test_too_few_readings_are_refused(make_test: MakeTest) -> None:
 
 
 def test_a_reference_that_was_not_measured_is_refused(make_test: MakeTest) -> None:
-    with pytest.raises(UnsupportedError, match="the reference level 50 N cannot be taken off: the runs are at 100, 200 N"):
+    with pytest.raises(UnsupportedError, match="the reference level 50 N cannot be subtracted: the runs are at 100, 200 N"):
         identify(make_test("wFYXt", [100.0, 200.0], reference=50.0))
-    with pytest.raises(UnsupportedError, match="the reference level 100 N cannot be taken off"):
+    with pytest.raises(UnsupportedError, match="the reference level 100 N cannot be subtracted"):
         identify(make_test("wFYXt", [100.0], repeats=2, reference=100.0))
 
 

@@ -57,7 +57,7 @@ PHYSICAL = {
 
 @pytest.fixture(scope="module")
 def planar(make_test: MakeTest) -> tuple[tuple[Source, ...], Confounding]:
-    """The 18 planar compliances of the thesis's circle, and what it tells apart of them."""
+    """The 18 planar compliances of the thesis's circle, and what it distinguishes of them."""
     test = make_test("wFYXt", [100.0])
     systems = systems_of(test)
     found = confounding(merged(systems.runs), SIX, systems.ceilings)

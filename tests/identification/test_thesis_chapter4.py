@@ -93,7 +93,7 @@ def section_4_5(make_test: MakeTest) -> Identification:
 
 @pytest.fixture(scope="module")
 def section_4_6(make_test: MakeTest, thesis_forces: tuple[float, ...]) -> Identification:
-    """Section 4.6: Table 4.6 and errors that do not change with the load, seven levels, 36 N taken off."""
+    """Section 4.6: Table 4.6 and errors that do not change with the load, seven levels, 36 N subtracted."""
     test = make_test("wCAFYXZSt", thesis_forces, reference=36.0, readings=120)
     return identify(simulate(replace(test, resolution=RESOLUTION), TABLE_4_6 | GEOMETRY, exact=False))
 

@@ -60,7 +60,7 @@ def test_addresses_that_will_not_do_are_refused_without_their_password(server, m
         ({"sampling": -1.0}, "the sampling interval is -1 s"),
         ({"batch": float("nan")}, "batch is nan s"),
         ({"publishing": 0.0}, "publishing is 0 s"),
-        ({"backlog": 1}, "a backlog of 1 samples will not do"),
+        ({"backlog": 1}, "a backlog of 1 samples does not work"),
         ({"security": "Basic256Sha256,SignAndEncrypt,c.der,k.pem::secret"}, "put it in ELASTOGEO_OPCUA_KEY_PASSWORD"),
         ({"security": "Basic256Sha256"}, "is not Policy,Mode,certificate,key"),
     ],

@@ -15,7 +15,7 @@ TRUTH = {"C_XXX": 6.19e-5, "C_XYX": 7.98e-7, "C_YYY": 4.61e-5, "C_CXY": -2.69e-8
 
 @pytest.fixture(scope="session")
 def rich(make_test, thesis_forces):
-    """Seven levels, two of them repeated three times, reference taken off, resolution given, simulated."""
+    """Seven levels, two of them repeated three times, reference subtracted, resolution given, simulated."""
     test = make_test("wCAFYXZSt", thesis_forces, readings=180, repeats=3, reference=36.0)
     runs = tuple(run for run in test.runs if run.repeat == 1 or run.force in (364.0, 490.0))
     test = replace(test, runs=runs, resolution=0.00024, simulated="the global parameters of Table 5.5")
@@ -31,7 +31,7 @@ def poor(make_test):
 
 @pytest.fixture(scope="session")
 def geometric(make_test, thesis_forces):
-    """Compliance and geometry together: everything told apart."""
+    """Compliance and geometry together: everything distinguished."""
     test = make_test("wCAFYXZSt", thesis_forces, readings=90)
     test = replace(test, question=Question(("elasto-geometric-xy",)))
     return identify(simulate(test, {**TRUTH, "E_XX1": -1.3e-4, "E_Xt0": 0.0039}, Imperfection(noise=7e-5), seed=3))
@@ -55,7 +55,7 @@ def separated(make_machine, make_test, thesis_forces):
 
 @pytest.fixture(scope="session")
 def mixed(make_test):
-    """Compliance and geometry at one force level: not told apart."""
+    """Compliance and geometry at one force level: not distinguished."""
     test = make_test("wCAFYXZSt", (742.0,), readings=90, repeats=3)
     test = replace(test, question=Question(("elasto-geometric-xy",)))
     truth = {**TRUTH, "E_XX1": -1.3e-4, "E_YX2": 4e-7, "E_Xt0": 0.0039}

@@ -275,7 +275,7 @@ def test_diagnosis(separated, mixed) -> None:
     assert together["names"] == ["C_XXX", "E_XX1"]
     assert together["separated"] is False
     assert together["axis"] is None
-    assert "not told apart" in together["meaning"]
+    assert "not distinguished" in together["meaning"]
 
 
 def test_comparison(separated) -> None:

@@ -25,7 +25,7 @@ class MachineState(Result):
     state : str
         The worst of them, or `OVERDUE`.
     overdue : dict of str to float [d]
-        By series how long its test is overdue, the grace taken off; only those that are.
+        By series how long its test is overdue, the grace subtracted; only those that are.
     open_alarms : int
     held_by : str
         The instrument whose alarm holds its alarms back; empty if none does.

@@ -46,7 +46,7 @@ class Reference(ByValue):
     temperature : array, shape (..., q) [degC]
         Mean of the baseline; 0 where there is no slope.
     spread : array, shape (..., q) [K^2]
-        Sum of squares about it: what the leverage of a temperature counts on. Infinite where there is no slope.
+        Sum of squares about it: what the leverage of a temperature rests on. Infinite where there is no slope.
     unknown : array, shape (..., q)
         Standard deviation that the temperatures of the baseline made: how far off a test may be without one.
     """

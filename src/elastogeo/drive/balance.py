@@ -2,8 +2,8 @@
 
     effort = J dv/dt + B v + tau_c sgn(v) + constant + sum of loads times their direction patterns
 
-The columns are measured themselves, so two that are alike but for their noise would be "told apart" by that noise. Hence
-the wide tolerance `COLLINEAR`. What is not told apart is named with what would separate it, and gets no number of its own.
+The columns are measured themselves, so two that differ by their noise only would be "distinguished" by it. Hence the
+wide tolerance `COLLINEAR`. What is not distinguished is named with what would separate it, and gets no number of its own.
 """
 
 from __future__ import annotations
@@ -153,7 +153,7 @@ class BalanceFit:
 
     @property
     def sentence(self) -> str:
-        """What cannot be told apart, and what would separate it; empty if all can."""
+        """What cannot be distinguished, and what would separate it; empty if all can."""
         return advice(self.axis, self.confounding)
 
     @property
@@ -211,14 +211,14 @@ def identify_balance(
     model : TorqueModel, optional
         Default the plain four terms.
     known : mapping of str to float, optional
-        Parameters that are given; their part is taken off the effort.
+        Parameters that are given; their part is subtracted from the effort.
     chosen : sequence of array of bool, shape (m,), optional
         Samples to use of each record; default `usable`.
 
     Returns
     -------
     BalanceFit
-        `balance` and `determined` give numbers only for what the records tell apart.
+        `balance` and `determined` give numbers only for what the records distinguish.
 
     Raises
     ------

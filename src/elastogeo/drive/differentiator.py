@@ -150,8 +150,8 @@ def check_cutoff(cutoff: float, step: float) -> None:
     """
     if not 0 < cutoff < 0.5 / step:
         raise InputError(
-            f"the cut-off of {cutoff:g} Hz will not do for a sample every {step:g} s; choose one above 0 and below half the "
-            f"sampling rate, {0.5 / step:g} Hz"
+            f"the cut-off of {cutoff:g} Hz is out of range for a sample every {step:g} s; choose one above 0, below "
+            f"half the sampling rate, {0.5 / step:g} Hz"
         )
 
 
@@ -172,7 +172,7 @@ def _by_segment(time: Array, values: Array, cutoff: float, apply: Callable[[Arra
     result = np.full(len(time), np.nan)
     for segment in _segments(time, step):
         if segment.stop - segment.start >= _LEAST:
-            # The line from end to end passes a low-pass unchanged; taken off, it leaves no transient at the ends.
+            # The line from end to end passes a low-pass unchanged; subtracted, it leaves no transient at the ends.
             line = np.linspace(values[segment][0], values[segment][-1], segment.stop - segment.start)
             result[segment] = line + apply(sos, values[segment] - line)
     if np.isnan(result).all():

@@ -144,7 +144,7 @@ class ForceAgreement:
         Whether a gain of 1 and an offset of 0 lie within the uncertainty; of both together, so that sound forces agree at
         the stated coverage.
     rms_difference, maximum_difference : float [N]
-        Of current less dynamometer as they are, gain and offset not taken off; the maximum is of the size.
+        Of current less dynamometer as they are, gain and offset not subtracted; the maximum is of the size.
     residual_std : float [N]
         What the straight line leaves.
     attenuation : float

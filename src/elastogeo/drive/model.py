@@ -52,7 +52,7 @@ class TorqueModel:
     def __post_init__(self) -> None:
         """Refuse a model that is none."""
         if not self.terms or len(set(self.terms)) < len(self.terms):
-            raise InputError(f"the terms {', '.join(self.terms) or 'of none'} will not do; name one or more, each once")
+            raise InputError(f"the terms {', '.join(self.terms) or 'of none'} cannot be used; name one or more, each once")
         found = self.chosen
         if self.least_speed is not None and not (np.isfinite(self.least_speed) and self.least_speed >= 0):
             raise InputError(f"least_speed is {self.least_speed:g}; write 0 or a positive speed")

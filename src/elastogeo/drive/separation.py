@@ -1,4 +1,4 @@
-"""What a record of a drive cannot tell apart, in words, and what would separate it."""
+"""What a record of a drive cannot distinguish, in words, and what would separate it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _MOTION = ("inertia", *_SPEED, *_FRICTION, "constant", "stribeck")
 
 
 def advice(axis: str, found: Confounding) -> str:
-    """What cannot be told apart of the balance of an axis, and what would separate it; empty if all can."""
+    """What cannot be distinguished of the balance of an axis, and what would separate it; empty if all can."""
     sentences = []
     with_inertia = any("inertia" in terms for terms in map(found.stands_for, found.retained) if len(terms) > 1)
     for name in found.retained:

@@ -176,7 +176,7 @@ def rig_check(
         Degrees of freedom of the two.
     u_shared : array, shape (m,)
         Standard uncertainty that influences common to both leave in their difference. A force known to a part s alike with
-        and without the rig leaves `s (measured - C_VM)`; the set-up's compliance, taken off both, leaves nothing.
+        and without the rig leaves `s (measured - C_VM)`; the set-up's compliance, subtracted from both, leaves nothing.
     coverage : float
 
     Raises

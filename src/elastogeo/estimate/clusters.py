@@ -25,7 +25,7 @@ _MOST_TIMES = 4
 
 
 def solve_by_run(runs: Sequence[Factor], labels: Sequence[str]) -> Solution:
-    """Least-squares solution whose covariance counts on independent runs, not on independent readings.
+    """Least-squares solution whose covariance assumes independent runs, not independent readings.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a design can and cannot tell apart.
+"""What a design can and cannot distinguish.
 
 Everything is decided on columns scaled to unit length, so that no unit decides a rank. A column is *null* when it produces
 no reading; columns are *proportional* when they always produce the same trace but for its size; any other dependence is
@@ -26,7 +26,7 @@ NULL_TOLERANCE = 1e-12
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Confounding(ByValue):
-    """What the observations can tell apart.
+    """What the observations can distinguish.
 
     Attributes
     ----------

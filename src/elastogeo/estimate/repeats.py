@@ -74,7 +74,7 @@ def repeatability(
     labels : sequence of str
         Parameters to solve for (a retained set).
     common : Common, optional
-        Of an error that all runs share: that of a reference which was taken off from each.
+        Of an error that all runs share: that of a reference which was subtracted from each.
 
     Returns
     -------

@@ -1,6 +1,6 @@
 """How the runs scatter about an estimate, and so what any combination of its parameters is worth.
 
-What counts on runs is not linear in the parameters: the degrees of freedom of a sum do not follow from those of its parts.
+A covariance by runs is not linear in the parameters: the degrees of freedom of a sum do not follow from those of its parts.
 Kept is therefore, thin, what all of them follow from: for each run the directions of the estimate that it has a share in.
 """
 

@@ -53,7 +53,7 @@ class Solution(ByValue):
     residual_std : float
         Estimated standard deviation of one reading.
     scatter : RunScatter or None
-        How the runs scatter about it, where its covariance counts on runs.
+        How the runs scatter about it, where its covariance assumes independent runs.
     """
 
     labels: tuple[str, ...]
@@ -112,7 +112,7 @@ def solve(
     Raises
     ------
     RankError
-        If the columns are dependent: ask `confounding` what can be told apart.
+        If the columns are dependent: ask `confounding` what can be distinguished.
     DegreesOfFreedomError
         If there are no more readings than parameters.
     """
@@ -154,7 +154,7 @@ def minimum_norm(factor: Factor, tolerance: float = RANK_TOLERANCE) -> Array:
     """Minimum-norm solution over all parameters, shape (p,), on scaled columns.
 
     Among the solutions that fit equally well, the one whose scaled parameters are smallest: identical columns share their
-    sum equally (Table 4.3). **It is not an estimate of each parameter**: what cannot be told apart stays untold.
+    sum equally (Table 4.3). **It is not an estimate of each parameter**: what cannot be distinguished stays untold.
     """
     norms = factor.column_norms
     scale = np.divide(1.0, norms, out=np.zeros_like(norms), where=norms > 0)

@@ -32,7 +32,7 @@ the contract tests in `tests/formats/test_log_files.py` run on it at once. A com
     register(LogFormat("toy", ".toy", can_read, read, sample=lambda: b"TOYLOG\\n0.5\\n0.25\\n"))
 
 What the contract asks is what `run_files` asks of a format of runs: `can_read` never raises and says yes to its own files
-only; `read` turns any bytes into a `Log`, or raises a `FormatError` that says where, what arrived, why it will not do, and
+only; `read` turns any bytes into a `Log`, or raises a `FormatError` that says where, what arrived, why it is refused, and
 what to do. What it repairs, it says in the log's notes; it never drops, pads or rounds a sample in silence. A recording that
 ends suddenly is still a recording: its whole samples are read; a last one that may be half a number is left out, and said.
 '''

@@ -41,7 +41,7 @@ What the contract asks:
 
 * `can_read` sees the first `HEAD` bytes, says yes to its own files only, and never raises;
 * `read` gives the commands in mm and rad and the feeds in mm/s, or raises a `FormatError` with the line, what arrived, why
-  it will not do, and what to do. What moves nothing (tools, spindle, coolant) it leaves out by name, in the notes of the
+  it is refused, and what to do. What moves nothing (tools, spindle, coolant) it leaves out by name, in the notes of the
   program; what would move an axis in a way that it does not follow, it refuses;
 * `write` gives a text that `read` turns into the same path, to the decimals written.
 '''

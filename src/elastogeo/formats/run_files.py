@@ -36,7 +36,7 @@ What the contract asks:
 
 * `can_read` sees the first `HEAD` bytes, says yes to its own files only, and never raises;
 * `read` turns any bytes into a `Table` in internal units, or raises a `FormatError` that says where in the file, what
-  arrived, why it will not do, and what to do. It counts all that is wrong and shows the first five;
+  arrived, why it is refused, and what to do. It counts all that is wrong and shows the first five;
 * it never drops, pads or rounds a reading; it takes less than a second and ten times the file's size for each megabyte;
 * `sample` gives a small valid file, on which the detectors of all other formats are tried. Cut off anywhere it is refused:
   half a number reads as another number, so a file must say where it ends;

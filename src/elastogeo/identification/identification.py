@@ -302,7 +302,7 @@ def consistency_of(identification: Identification) -> Consistency:
 def _by_run(systems: Systems, found: Confounding) -> tuple[Solution | None, tuple[str, ...]]:
     """The solution with its uncertainty by run, and the parameters of which the runs show none.
 
-    No solution where a reference is taken off, or the runs are too few for every parameter.
+    No solution where a reference is subtracted, or the runs are too few for every parameter.
     """
     if systems.references or len(systems.runs) < 2:
         return None, ()

@@ -1,4 +1,4 @@
-"""Which of several parameters that cannot be told apart is retained, unless the user prefers another.
+"""Which of several parameters that cannot be distinguished is retained, unless the user prefers another.
 
 On-axis compliances of the moving axes come first; then, as in the thesis (4.5), translations for a force, rotations for a
 force, translations for a moment, rotations for a moment; joints that move before joints that stand.

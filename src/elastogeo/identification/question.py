@@ -192,7 +192,7 @@ def chosen_observations(test: MachineTest, observations: Sequence[Observations])
 
 
 def confounding_of(one: Askable, systems: Systems) -> Confounding:
-    """What the tests can and cannot tell apart of what their question asks for."""
+    """What the tests can and cannot distinguish of what their question asks for."""
     campaign = campaign_of(one)
     prefer = preferred(campaign.question.prefer, systems.sources)
     order = retaining_order(systems.sources, campaign.machine, [run.spans for run in systems.runs], prefer)

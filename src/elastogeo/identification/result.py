@@ -197,7 +197,7 @@ class Local:
 
 @dataclass(frozen=True, slots=True)
 class Pattern:
-    """The response of a reading to parameters that cannot be told apart (Table 4.4).
+    """The response of a reading to parameters that cannot be distinguished (Table 4.4).
 
     Attributes
     ----------
@@ -230,15 +230,15 @@ class Identification(Result):
     information : dict of str to dict of str to float
         Of several tests, by parameter and test: 1 less the variance with all over that without this test.
     reference_force : float or None [N]
-        Force level that was taken off.
+        Force level that was subtracted.
     parameters : tuple of Parameter
         The retained set.
     confounding : Confounding
     solution : Solution
-        Global estimate of the retained set (Eqs. 4.28, 5.37). Its covariance counts on independent runs where `by_run` is
+        Global estimate of the retained set (Eqs. 4.28, 5.37). Its covariance assumes independent runs where `by_run` is
         set, on independent readings where not.
     naive : Solution
-        The same values with the covariance that counts on independent readings.
+        The same values with the covariance that assumes independent readings.
     by_run : bool
         Whether the runs are enough for an uncertainty by run.
     unshown : tuple of str

@@ -30,11 +30,11 @@ class Held:
     Attributes
     ----------
     observations : Observations
-        As observed; nothing is taken off.
+        As observed; nothing is subtracted.
     own : array, shape (m, k)
         Columns of the run's own set-up.
     rows : array, shape (m, q + 1)
-        `[A | y]`, less the reference's if one is taken off (Eqs. 4.26, 4.27), less what the run's own set-up explains.
+        `[A | y]`, less the reference's if one is subtracted (Eqs. 4.26, 4.27), less what the run's own set-up explains.
     labels : tuple of str, length q
         Of these columns.
     """
@@ -118,7 +118,7 @@ class RunSystem:
 
     @property
     def observations(self) -> Observations:
-        """As observed; nothing is taken off."""
+        """As observed; nothing is subtracted."""
         return self._held(()).observations if self.recipe is None or self.held else self.recipe.observe()
 
     @property
@@ -251,7 +251,7 @@ def reweighted(run: RunSystem, weights: Array) -> RunSystem:
 def own_part(own: Array, columns: Array, weights: Array | None = None) -> Array:
     """How much of a run's own set-up, shape (m, k), is in columns, shape (m, q): least squares, shape (k, q).
 
-    Of set-up columns that the run cannot tell apart the smallest values, of one that moves no reading none.
+    Of set-up columns that the run cannot distinguish the smallest values, of one that moves no reading none.
     """
     if not own.shape[1]:
         return np.zeros((0, columns.shape[1]))

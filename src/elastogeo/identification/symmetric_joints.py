@@ -100,7 +100,7 @@ def reciprocity(
     observations : sequence of Observations
         One per run.
     reference : float, optional [N]
-        Force level that is taken off, as in `run_systems`.
+        Force level that is subtracted, as in `run_systems`.
     prefer : sequence of str
         Parameters to retain first.
     """

@@ -33,9 +33,9 @@ class Systems:
     sources : tuple of Source
         One per column.
     runs : tuple of RunSystem
-        In the order of the test, without the reference runs if they are taken off.
+        In the order of the test, without the reference runs if they are subtracted.
     references : int
-        How many reference runs were averaged and taken off from each run; 0 if none was.
+        How many reference runs were averaged and subtracted from each run; 0 if none was.
     applied : ForceLevels
         The force levels that were applied, the reference among them.
     ceilings : array, shape (p,)
@@ -133,7 +133,7 @@ def run_systems(
     observations : sequence of Observations
         One per run.
     reference : float, optional [N]
-        Force level whose readings and model are taken off from all others, at the same poses (Eqs. 4.26, 4.27). What does
+        Force level whose readings and model are subtracted from all others, at the same poses (Eqs. 4.26, 4.27). What does
         not change with the load then cancels, from the readings and from the model alike.
     own : sequence of Source
         The set-up that every run has for itself.
@@ -168,7 +168,7 @@ def run_systems(
         if not references or references == len(forces):
             there = ", ".join(f"{level:g}" for level in applied.forces)
             raise UnsupportedError(
-                f"the reference level {reference:g} N cannot be taken off: the runs are at {there} N; "
+                f"the reference level {reference:g} N cannot be subtracted: the runs are at {there} N; "
                 f"it takes a run at the reference and one at another level"
             )
         base = observations[is_reference.index(True)]

@@ -89,7 +89,7 @@ def free_of_assumptions(budget: Budget) -> Check | None:
 
 
 def separated(parameters: Sequence[Parameter], levels: ForceLevels) -> Check:
-    """Whether compliance and geometry are told apart, by more than differences of force within one level."""
+    """Whether compliance and geometry are distinguished, by more than differences of force within one level."""
     mixed = tuple(tuple(parameter.stands_for) for parameter in parameters if not parameter.separated)
     alone = levels.members[0] if len(levels.members) == 1 else ()
     within = (alone[0], alone[-1]) if alone and alone[0] < alone[-1] else None
@@ -99,7 +99,7 @@ def separated(parameters: Sequence[Parameter], levels: ForceLevels) -> Check:
 
 
 def uncertainty_by_run(by_run: bool, runs: int, reference: bool, needed: int | None, unshown: Sequence[str] = ()) -> Check:
-    """Whether the uncertainties count on independent runs; there are none if not."""
+    """Whether the uncertainties assume independent runs; there are none if not."""
     facts = {"runs": runs, "reference": reference, "needed": needed, "unshown": tuple(unshown) if by_run else ()}
     return Check("uncertainty by run", by_run and not unshown, facts)
 

@@ -57,7 +57,7 @@ def check_displacements(run: Run, names: Sequence[str]) -> None:
         if most > MOST_DISPLACEMENT:
             raise InputError(
                 f"run {run.name!r}: {name} reaches {most:.4g} mm; are they micrometres given as millimetres, or readings "
-                f"whose zero was not taken off?"
+                f"whose zero was not subtracted?"
             )
 
 

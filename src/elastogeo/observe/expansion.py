@@ -62,7 +62,7 @@ class Expansion:
         return self.expansion * (self.temperature - REFERENCE)
 
     def influences(self, body: str, length: Array) -> Iterator[ObservedInfluence]:
-        """What is uncertain in readings from which `stretch` times a length, shape (m,) [mm], was taken off.
+        """What is uncertain in readings from which `stretch` times a length, shape (m,) [mm], was subtracted.
 
         Parameters
         ----------

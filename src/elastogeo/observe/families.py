@@ -21,7 +21,7 @@ def family_of(machine: Machine, observations: Iterable[Observations]) -> str | N
     Parameters
     ----------
     machine : Machine
-        Carriages with a mass load the joints by themselves, which no family counts on.
+        Carriages with a mass load the joints by themselves, which no family assumes.
     observations : iterable of Observations
         Of all runs. A probe across a joint, and a known weight on the table, belong to no family.
     """

@@ -78,9 +78,9 @@ class Observations:
     wrench : array, shape (m, 6) [N, N mm]
         Wrench on the tool at the functional point; its reaction acts on the workpiece.
     reading : array, shape (m,) [mm or rad]
-        With `correction` taken off.
+        With `correction` subtracted.
     correction : array, shape (m,) [mm or rad]
-        What the set-up adds to the recorded reading and was taken off.
+        What the set-up adds to the recorded reading and was subtracted.
     tool : array, shape (3,) [mm]
         Functional point in the frame of the last tool-branch carriage.
     workpiece : array, shape (3,) or (m, 3) [mm]
@@ -178,7 +178,7 @@ def check_observations(observations: Observations) -> Observations:
     Raises
     ------
     InputError
-        With the run, the quantity and the first reading that will not do.
+        With the run, the quantity and the first reading that is not finite.
     """
     name = observations.run
     if not len(observations):

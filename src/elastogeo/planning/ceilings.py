@@ -1,4 +1,4 @@
-"""How many of a machine's compliances the best tests between tool and workpiece could ever tell apart, and which not.
+"""How many of a machine's compliances the best tests between tool and workpiece could ever distinguish, and which not.
 
 Two compliances that follow each other in the loop, with some axes moving between them, exchange a tensor `T` unseen if
 each of these motions leaves `T` unchanged (`invariants`): what one gains and the other loses, carried to its frame, moves
@@ -214,7 +214,7 @@ class _Loop:
         return generator(_alone(self.frames.joints[axis].location), joint.direction, joint.is_rotary)
 
     def _entries(self, site: Site, tensors: Array) -> Array:
-        """The tensors as changes of all compliances, shape (k, p), with what rounding leaves taken off."""
+        """The tensors as changes of all compliances, shape (k, p), with what rounding leaves set to zero."""
         rows = np.zeros((len(tensors), len(self.sources)))
         for k, source in enumerate(self.sources):
             if source.site == site:

@@ -93,7 +93,7 @@ def plan(
     Raises
     ------
     InputError
-        If the machine's travel is not known, a number will not do, or a name is none.
+        If the machine's travel is not known, a number is out of range, or a name is unknown.
     UnsupportedError
         If no test fits into the travel, or none tells anything.
     """

@@ -51,7 +51,7 @@ def record(
     Raises
     ------
     InputError
-        If the server cannot be reached at the very beginning of a recording, or the folder will not do.
+        If the server cannot be reached at the very beginning of a recording, or the folder cannot be used.
     FormatError
         If a part in the folder cannot be read.
     OSError

@@ -106,7 +106,7 @@ class RecordingPlan:
                 raise InputError(f"{name} is {getattr(self, name):g} s; choose one from 0.01 to 3600 s")
         if not 0 <= self.queue <= 1_000_000 or not 1000 <= self.backlog <= 100_000_000:
             raise InputError(
-                f"a queue of {self.queue} and a backlog of {self.backlog} samples will not do; choose a queue up to "
+                f"a queue of {self.queue} and a backlog of {self.backlog} samples does not work; choose a queue up to "
                 f"1000000 and a backlog from 1000 to 100000000"
             )
         if "::" in self.security:
@@ -188,7 +188,7 @@ def planned(server: str, nodes: Sequence[str] = (), **changes: object) -> Record
     Raises
     ------
     InputError
-        If something will not do.
+        If a setting is not valid.
     """
     given = {name: value for name, value in changes.items() if value is not None}
     if nodes:

@@ -12,7 +12,7 @@ UM = 1000.0
 MICRO = 1e6
 MOST_TERMS = 6
 """Terms of a sum that are written where there is little room; the folded sections and the JSON hold all."""
-UNTOLD = "compliance and geometry, not told apart"
+UNTOLD = "compliance and geometry, not distinguished"
 """What is said of a parameter that stands for a sum of both: none of its members may be named the cause."""
 _SAME = 1e-6
 """Coefficients this close to one are written without a number."""
@@ -25,7 +25,7 @@ class ParameterRow:
     Attributes
     ----------
     name : str
-        The combination instead, where compliance and geometry are not told apart: no single name is right then.
+        The combination instead, where compliance and geometry are not distinguished: no single name is right then.
     value, unit : str
         The value is `value ± U`, where U is half the 95 % interval, in `unit`; the value alone where there is none.
     peak_to_peak, share_percent : str
@@ -75,7 +75,7 @@ def said_value(parameter: Parameter, unit: DisplayUnit) -> str:
 
 
 def label(parameter: Parameter) -> str:
-    """What a parameter is shown under: its name, or the whole sum where compliance and geometry are not told apart."""
+    """What a parameter is shown under: its name, or the whole sum where compliance and geometry are not distinguished."""
     return parameter.name if parameter.separated else combination(parameter.stands_for, MOST_TERMS)
 
 
@@ -85,7 +85,7 @@ def labels(result: Identification) -> dict[str, str]:
 
 
 def all_separated(result: Identification) -> bool:
-    """Whether compliance and geometry are told apart in everything that was identified."""
+    """Whether compliance and geometry are distinguished in everything that was identified."""
     return all(p.separated for p in result.parameters)
 
 

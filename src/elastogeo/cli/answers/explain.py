@@ -22,7 +22,7 @@ def explain(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Say what one test or several can and cannot tell apart.
+    """Say what one test or several can and cannot distinguish.
 
     \b
     Example, before any run has been made:

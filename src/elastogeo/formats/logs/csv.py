@@ -202,7 +202,7 @@ class _Samples:
     def log(self, source: str) -> Log:
         """The log of what was read."""
         if self.bad:
-            raise problems_error(source, self.problems, self.bad, "lines will not do (nothing was read)")
+            raise problems_error(source, self.problems, self.bad, "lines cannot be read (nothing was read)")
         if not self.rows:
             raise FormatError(f"{source}: no complete sample follows the column headers on line {self.heading.line}")
         self.decimal.check(source)

@@ -269,7 +269,7 @@ def _quantity(text: str, unit: str, where: str, dimension: str) -> float:
     number = float(value["number"].replace(",", "."))
     number = number if hertz else float(to_internal(number, unit))
     if not math.isfinite(number) or (dimension != "angle" and number <= 0):
-        raise FormatError(f"{where}: {text[:40]!r} will not do; it must be a finite number above zero")
+        raise FormatError(f"{where}: {text[:40]!r} is not valid; it must be a finite number above zero")
     return number
 
 

@@ -187,7 +187,7 @@ def _numbers(readings: Element, where: str) -> Array:
         if count > MAX_READINGS:
             raise FormatError(f"{where}: has more than {MAX_READINGS} readings; this is no ball-bar test")
     if bad:
-        raise problems_error(where, problems, bad, "readings will not do (nothing was read)")
+        raise problems_error(where, problems, bad, "readings cannot be read (nothing was read)")
     return np.array(values, dtype=np.float64)
 
 

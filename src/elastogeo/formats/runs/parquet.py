@@ -73,7 +73,7 @@ def _read(data: bytes, source: str, wanted: Mapping[str, str] | None) -> Table:
             problems.append(f"row {row + 1}, column {column.header}: {cells[row].as_py()} is no reading; correct it")
         arrays[column.quantity] = column.internal(values)
     if bad:
-        raise problems_error(source, problems, bad, "cells will not do (nothing was read)")
+        raise problems_error(source, problems, bad, "cells cannot be read (nothing was read)")
     units = {column.quantity: column.unit for column in columns}
     return Table(arrays, {k: v for k, v in metadata.items() if k != "pandas"}, source, units)
 

@@ -74,7 +74,7 @@ def _utf8(data: bytes, cut: bool) -> bytes:
 def comment_text(line: str, separator: str | None) -> str | None:
     """Return the text of a comment line (`#`, `%`, `//`, and `;` where it separates nothing), or None for any other.
 
-    A spreadsheet saves a comment that holds a separator in quotes; they are taken off.
+    A spreadsheet saves a comment that holds a separator in quotes; they are removed.
     """
     if line.startswith(('"#', '"%', '"//')):
         cells = line.rstrip(SEPARATORS)

@@ -138,7 +138,7 @@ class Readings:
             If a line was bad, there was none, the decimal mark is in doubt, or fewer arrived than the file promises.
         """
         if self.bad:
-            raise problems_error(source, self.problems, self.bad, "lines will not do (nothing was read)")
+            raise problems_error(source, self.problems, self.bad, "lines cannot be read (nothing was read)")
         if not self.rows:
             raise FormatError(f"{source}: no reading follows the column header on line {self.heading.line}")
         self.decimal.check(source)

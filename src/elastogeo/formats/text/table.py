@@ -124,7 +124,7 @@ def parse_headers(headers: Sequence[str], where: str) -> list[Column]:
             problems.append(f"column {header!r} and {first!r} name the same quantity: rename or remove one")
         columns[quantity] = Column(header, quantity, unit)
     if problems:
-        raise problems_error(where, problems[:SHOWN], len(problems), "column headers will not do")
+        raise problems_error(where, problems[:SHOWN], len(problems), "column headers cannot be read")
     return list(columns.values())
 
 

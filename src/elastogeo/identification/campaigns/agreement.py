@@ -100,7 +100,7 @@ class TestsAgreement:
     disagreeing : tuple of str
         Tests that differ from all others by more than scatter and influences explain, whatever the cause.
     named : tuple of str
-        Those without which the others agree, each alone; where none is such, the one whose removal takes off most of the
+        Those without which the others agree, each alone; where none is such, the one whose removal reduces most of the
         disagreement. One, as a rule; several where the tests cannot tell which of them is wrong.
     rest_agrees : bool
         Whether the others agree without it.

@@ -90,7 +90,7 @@ def radial_deviation(path: Path, radius: float, centre: Centre = "least-squares"
     ------
     UnsupportedError
         If the set-up's eccentricity is to be removed and the circle is not full: on an arc, eccentricity and radius cannot
-        be told apart well enough.
+        be distinguished well enough.
     InputError
         As `enclosed`.
     """

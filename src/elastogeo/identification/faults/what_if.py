@@ -28,7 +28,7 @@ class WhatIf(Result):
     identification : Identification
         That it rests on.
     corrected : tuple of str
-        Parameters whose part is taken off.
+        Parameters whose part is subtracted.
     traces : tuple of Trace
         What would be measured, with what would be predicted.
     before, after : dict of float to Circularity

@@ -24,7 +24,7 @@ def evaluate_positioning(test: MachineTest) -> PositioningResults:
     """What a positioning test says (ISO 230-2).
 
     Along the axis, deviations count along its own command: positive where the axis goes too far in its positive direction.
-    Across it a straight line through all readings is taken off first, so that E is its straightness.
+    Across it a straight line through all readings is subtracted first, so that E is its straightness.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def evaluate_positioning(test: MachineTest) -> PositioningResults:
     Raises
     ------
     InputError
-        If the test has another instrument, or a run will not do.
+        If the test has another instrument, or a run cannot be evaluated.
     """
     if test.setup.extra != "positioning":
         raise InputError(

@@ -36,7 +36,7 @@ def with_uncertainty(
     shifts : sequence of (Influence, array), shape (m,) [mm or rad]
         By how much each stated influence makes these readings too great, per unit of its quantity.
     straight : bool
-        Whether a straight line through all readings is taken off first.
+        Whether a straight line through all readings is subtracted first.
     """
 
     def values(read: Array) -> dict[str, float]:

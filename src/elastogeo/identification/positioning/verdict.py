@@ -106,7 +106,7 @@ def _drift(sense: Array, reading: Array, cycle: Numbers, place: Numbers, angular
 def followed(joints: Identification, sense: Array, place: Numbers, angular: bool) -> Check:
     """Whether the identified parameters leave no more of the means by target than the cycles scatter: F of the lack of fit.
 
-    The zero of each cycle is taken off, as in the estimate.
+    The zero of each cycle is subtracted, as in the estimate.
     """
     left = np.concatenate([trace.measured - trace.predicted for trace in joints.traces])
     cell = _cells(sense, place)

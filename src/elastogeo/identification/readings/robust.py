@@ -22,14 +22,14 @@ def downweighted(systems: Systems, retained: Sequence[str]) -> Systems:
     Parameters
     ----------
     systems : Systems
-        No reference taken off.
+        No reference subtracted.
     retained : sequence of str
         Parameters that the residuals are those of.
 
     Raises
     ------
     UnsupportedError
-        If a reference level is taken off (an outlier of the reference is in every difference), or the weights do not settle.
+        If a reference level is subtracted (its outliers are in every difference), or the weights do not settle.
     """
     if systems.references:
         raise UnsupportedError("a robust estimate needs the model without a reference level; leave reference_force out")

@@ -29,7 +29,7 @@ def shared_harmonic(runs: Sequence[RunSystem], labels: Sequence[str], circles: i
     Parameters
     ----------
     runs : sequence of RunSystem
-        Of one circle, no reference taken off.
+        Of one circle, no reference subtracted.
     labels : sequence of str
         Parameters of the model.
     circles : int

@@ -79,7 +79,7 @@ def evaluate_static(test: MachineTest, feedback: str = "motor") -> StaticResults
     Raises
     ------
     InputError
-        If the test has another instrument, or a run will not do.
+        If the test has another instrument, or a run cannot be evaluated.
     UnsupportedError
         If the joints cannot be identified at all.
     """

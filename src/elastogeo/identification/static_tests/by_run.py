@@ -32,7 +32,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Counted:
-    """What an uncertainty counts on.
+    """What an uncertainty assumes.
 
     Attributes
     ----------

@@ -88,7 +88,7 @@ class CartesianCompliance:
     zeros : tuple of Estimate [mm]
         Readings without force of the sensors, where they were asked for and are determined.
     counted : Counted
-        What the uncertainty counts on.
+        What the uncertainty assumes.
     residual_std : float [mm]
         Estimated standard deviation of one reading.
     systematic : array, shape (k, 9)
@@ -267,7 +267,7 @@ def cartesian_compliance(
     sensor : array of int, shape (m,), optional
         Which sensor read: each then has an unknown zero. Without it all readings count from zero force.
     run : array of int, shape (m,), optional
-        Which run it was; by default all are of one. The uncertainty counts on independent runs, and is infinite where they
+        Which run it was; by default all are of one. The uncertainty assumes independent runs, and is infinite where they
         are too few: readings along a turn are not independent.
 
     Notes
@@ -393,7 +393,7 @@ def _numbered(groups: Array, readings: int, what: str) -> NDArray[np.intp]:
 
 
 def _determined(factor: Factor, force: Array) -> Confounding:
-    """What the readings tell apart; a column of rounding error counts as none."""
+    """What the readings distinguish; a column of rounding error counts as none."""
     size = float(np.linalg.norm(force, axis=1).max())
     ceilings = np.array([size] * 9 + [1.0] * (len(factor.labels) - 9)) * np.sqrt(factor.rows)
     return confounding(factor, ceilings=ceilings)

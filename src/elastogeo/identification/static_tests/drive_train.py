@@ -111,7 +111,7 @@ class OnAxisPart:
     Attributes
     ----------
     names : tuple of str
-        What it is; more than one name if they cannot be told apart.
+        What it is; more than one name if they cannot be distinguished.
     compliance : Estimate
     acts : bool
         Whether it moves the tool quasi-statically; a transmission inside the position loop does not.
@@ -243,11 +243,11 @@ def _chain(record: OnAxisRecord, feedback: str) -> list[str]:
 def _split(
     record: OnAxisRecord, feedback: str, chain: Sequence[str], lines: _Lines, whole: Estimate | None
 ) -> tuple[list[OnAxisPart], Counted, Estimate | None]:
-    """Parts that act, what their uncertainty counts on, and the whole."""
+    """Parts that act, what their uncertainty assumes, and the whole."""
     places, springs = _IN_SERIES[feedback], _SPRINGS[feedback]
     spans = {springs[places.index(a) : places.index(b)]: (a, b) for a, b in pairwise(chain)}
     unseen = tuple(name for name in springs if not any(name in names for names in spans))
-    # Every difference is on the same design: what one counts on, all do.
+    # Every difference is on the same design: what one assumes, all do.
     counted = _fitted(lines, np.zeros(len(record.force)))[1]
     if record.deflection is not None:
         fit, _ = _fitted(lines, _channel(record, "deflection"))
@@ -305,8 +305,8 @@ def _lines(record: OnAxisRecord) -> tuple[_Lines, list[str]]:
     if confounding(merge(*_factors(lines, np.zeros(len(force))))).rank < 3:
         raise RankError(
             f"axis {record.axis}: the force changes exactly as the direction of motion does, so compliance and reversal "
-            f"cannot be told apart; load the axis at two forces in each direction, or leave the velocity out and read both "
-            f"as one"
+            f"cannot be distinguished; load the axis at two forces in each direction, or leave the velocity out and "
+            f"read both as one"
         )
     return lines, []
 
@@ -356,7 +356,7 @@ def _limits(record: OnAxisRecord, feedback: str, parts: Sequence[OnAxisPart], wh
         if channel in _IN_SERIES[feedback] and getattr(record, channel) is None
     ]
     said = [
-        f"Axis {record.axis}: {' and '.join(part.names)} cannot be told apart; it takes the {' and the '.join(lacking)}."
+        f"Axis {record.axis}: {' and '.join(part.names)} cannot be distinguished; it takes the {' and the '.join(lacking)}."
         for part in parts
         if len(part.names) > 1
     ]

@@ -162,7 +162,7 @@ class TwistPlace:
     compliance : tuple of 6 Estimate [mm/N, rad/N]
         Slope of the straight line through each component, along the axes in which the sensors are given.
     counted : Counted
-        What its uncertainties count on.
+        What its uncertainties assume.
     """
 
     commands: Mapping[str, float]

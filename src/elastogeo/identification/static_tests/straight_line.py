@@ -32,7 +32,7 @@ class StaticLine:
         Greatest distance of a reading from the line.
     readings : int
     counted : Counted
-        What the uncertainties count on; without runs enough they are infinite.
+        What the uncertainties assume; without runs enough they are infinite.
     """
 
     compliance: Estimate

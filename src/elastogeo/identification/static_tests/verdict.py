@@ -53,7 +53,7 @@ def probe_checks(found: Cartesian) -> tuple[Check, ...]:
 
 
 def twist_checks(runs: Sequence[TwistRun], places: Sequence[TwistPlace], refusal: str) -> tuple[Check, ...]:
-    """Of a sensor frame: whether it sees the twist, whether its sensors agree, and what the uncertainties count on."""
+    """Of a sensor frame: whether it sees the twist, whether its sensors agree, and what the uncertainties assume."""
     if not runs:
         return (Check("twist determined", False, {"why": refusal}),)
     suspects = {run.run: run.twist.suspect for run in runs if run.twist.suspect is not None}

@@ -48,9 +48,9 @@ class SphereNest(Setup):
 
     A run has one column per sensor, `displacement_1`, `displacement_2`, ..., and the commands of its rotary axes as columns
     named as the axes (`a_deg`, `c_deg`); or a column `angle` that counts along `motions`. Linear axes follow the ball; where
-    their columns (`x_mm`) are recorded too, what they miss it by is taken off the readings. Each row is one observation of
-    every sensor, sensor after sensor. The sensors need not be zeroed: zeros of the sensors are offsets of the end that
-    carries the nest, so that this end is known only if the nest was calibrated in place.
+    their columns (`x_mm`) are recorded too, what they miss it by is subtracted from the readings. Each row is one
+    observation of every sensor, sensor after sensor. The sensors need not be zeroed: zeros of the sensors are offsets of the
+    end that carries the nest, so that this end is known only if the nest was calibrated in place.
 
     Poses count as taken at standstill, each axis in the sense in which it came from the pose before, for its backlash. A run
     in continuous motion records `time_s` too: velocities follow, for servo lag; let it hold one motion, without a jump.

@@ -1,7 +1,7 @@
 """The ball-roller device: a roller bearing that circles a ball too closely, read from encoders and motor currents alone.
 
 The distance that the encoders command is smaller than the sum of the radii; machine and set-up give way until the two bodies
-fit: `engagement = F (C_machine + C_setup) + what the path is off` (Eqs. 6.1 to 6.4). With the set-up's deflection taken off
+fit: `engagement = F (C_machine + C_setup) + what the path is off` (Eqs. 6.1 to 6.4). With the set-up's deflection subtracted
 (6.5), a reading is the radial deviation of the tool under a radial force: the same as that of a loaded ball bar.
 """
 

@@ -69,7 +69,7 @@ def compensate_path(
     Raises
     ------
     InputError
-        If the path or the force will not do.
+        If the path or the force cannot be used.
     PathError
         If an axis would leave its travel.
     """

@@ -79,7 +79,7 @@ def predict(
     Raises
     ------
     InputError
-        If the path or the force will not do.
+        If the path or the force cannot be used.
     """
     result = one if isinstance(one, Identification) else identify(one)
     machine = result.campaign.machine

@@ -1,4 +1,4 @@
-"""The look of every figure: one palette that colour-blind readers can tell apart, one type, nothing that is not data."""
+"""The look of every figure: one palette that colour-blind readers can distinguish, one type, nothing that is not data."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ faults : [{names, meaning, axis, value, unit, standard_uncertainty, distortion_u
     distortion_interval95_um, share, significant, separated, also}]
     Greatest distortion first, the set-up (no axis, share 0) last. A cyclic error has two names and its amplitude as
     value. `also` names parameters that this test cannot tell from it. Where `separated` is false, compliance and geometry
-    are not told apart: `names` are all members of the sum, none of them the cause by itself, and `axis` is null.
+    are not distinguished: `names` are all members of the sum, none of them the cause by itself, and `axis` is null.
 untold : [name], parameters that change no reading of this test
 circularity : [{force_N, centre, g_ccw_um, g_cw_um, g_bidirectional_um, f_max_ccw_um, f_min_ccw_um, f_max_cw_um,
     f_min_cw_um, mean_radial_um, not_determined: [why]}], ISO 230-4 of the measured traces; null where not determined

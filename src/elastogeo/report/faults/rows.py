@@ -23,7 +23,7 @@ class DiagnosisRow:
     rank : str
         Empty for the set-up, which is no fault of the machine.
     name, meaning, axis : str
-        The sum, and no axis, where compliance and geometry are not told apart.
+        The sum, and no axis, where compliance and geometry are not distinguished.
     value, unit : str
         `value ± U` with U of 95 %.
     distortion_um : str
@@ -97,7 +97,7 @@ class WhatIfRow:
 
 @dataclass(frozen=True, slots=True)
 class Described:
-    """What may be said of a fault: all members of a sum, where compliance and geometry are not told apart."""
+    """What may be said of a fault: all members of a sum, where compliance and geometry are not distinguished."""
 
     names: tuple[str, ...]
     title: str

@@ -1,7 +1,7 @@
 """`elastogeo.what-if/1`: a test with some of its faults corrected.
 
 test : as in `envelope`
-corrected : [{name, value, unit, separated, stands_for}], whose part is taken off
+corrected : [{name, value, unit, separated, stands_for}], whose part is subtracted
 traces : [{run, force_N, peak_to_peak_before_um, peak_to_peak_after_um}]
 before, after : ISO 230-4 by force level, as `circularity` in `diagnosis`
 verdict : of the identification it rests on, as in `envelope`

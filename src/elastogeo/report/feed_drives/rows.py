@@ -58,7 +58,7 @@ def identified(result: DriveIdentification) -> list[AxisDrive]:
 
 
 def drive_rows(axis: AxisDrive) -> tuple[DriveRow, ...]:
-    """The parameters of an axis; a sum of terms that are not told apart stands under all their names."""
+    """The parameters of an axis; a sum of terms that are not distinguished stands under all their names."""
     rows = []
     for p in axis.parameters:
         at_motor = ""
@@ -66,7 +66,7 @@ def drive_rows(axis: AxisDrive) -> tuple[DriveRow, ...]:
             estimate, unit = p.at_motor
             at_motor = f"{said_estimate(estimate)} {_UNIT_AT_MOTOR[unit]}"
         mixed = len(p.stands_for) > 1
-        meaning = "not told apart" if mixed else p.meaning
+        meaning = "not distinguished" if mixed else p.meaning
         name = term_name(p.name) if not mixed else combination(p.stands_for)
         rows.append(DriveRow(name, said_estimate(p.estimate), written_unit(p.unit), at_motor, meaning))
     return tuple(rows)

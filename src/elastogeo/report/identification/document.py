@@ -17,13 +17,13 @@ tests_agreement : {disagreeing, named, rest_agrees, level_N, run, scatter, degre
     that differ from the others; those without which the others agree; `level_N` and `run` are what alone is wrong of the one
     that is named, null and empty if no single one is; `scatter` of runs over that of readings
 together : [name], of several tests the `parameters` that none of them determines alone
-by_run : whether the runs are enough for an uncertainty that counts on independent runs; if not, there is none
+by_run : whether the runs are enough for an uncertainty that assumes independent runs; if not, there is none
 parameters : the retained set, [{name, value, unit, standard_uncertainty, interval95, stands_for, peak_to_peak_um, share,
     meaning, axis, elastic, separated, degrees_of_freedom, naive_standard_uncertainty, budget, truth}]
     `stands_for` is {name: coefficient}, `peak_to_peak_um` has the sign of the value and is that at the highest force,
     what shifts all readings alike counts in full; `share` is 0 to 1 of the sum of all absolute ones without the set-up,
     0 for the set-up; `axis` is empty for the set-up, `elastic` is true if a load drives it. Where `separated` is false,
-    compliance and geometry are not told apart in what it stands for: only the sum is determined, and `name`, `meaning`
+    compliance and geometry are not distinguished in what it stands for: only the sum is determined, and `name`, `meaning`
     and `elastic` must not be taken for the cause. `standard_uncertainty`, `degrees_of_freedom` and `interval95` are
     those of the budget, null where `by_run` is false, and `budget` is empty then; `naive_standard_uncertainty` is the
     repeatability that independent readings would have, and no uncertainty. `budget` is [{label, type, distribution,
@@ -37,7 +37,7 @@ condition_raw, condition_scaled : of the retained columns as they are, and scale
 singular_values : of the scaled retained columns, greatest first
 rmse_um : over all readings that are no angles; null, as `peak_to_peak_um` and the `rmse_um` of levels, where all are
 levels : [{test, force_N, readings, rmse_um, fitness_percent, elastic_um, geometric_um, linear, local}], forces and
-    readings less the reference's if one was taken off; `elastic_um` and `geometric_um` are [least, greatest] deviation
+    readings less the reference's if one was subtracted; `elastic_um` and `geometric_um` are [least, greatest] deviation
     that compliance, and that geometry without the set-up, cause; null unless every parameter is separated. `linear` and
     `local` are null, or {rmse_um, fitness_percent} of the linear model and of the local estimates that the level is part
     of (Table 5.9)
@@ -190,7 +190,7 @@ def _agreement(found: TestsAgreement) -> dict[str, Any]:
 
 
 def confounding_entries(found: Confounding) -> dict[str, Any]:
-    """What a test can and cannot tell apart."""
+    """What a test can and cannot distinguish."""
     return {
         "null": found.null,
         "confounded": [group for group in found.groups if len(group) > 1],

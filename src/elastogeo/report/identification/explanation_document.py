@@ -1,4 +1,4 @@
-"""`elastogeo.explanation/1`: what a test can tell apart, before anything is estimated.
+"""`elastogeo.explanation/1`: what a test can distinguish, before anything is estimated.
 
 test : as in `envelope`
 null, confounded, rank, columns, condition_raw, condition_scaled : as in `identification`
@@ -29,7 +29,7 @@ EXPLANATION_SCHEMA = "elastogeo.explanation/1"
 
 
 def explanation_json(explained: Explanation, reach: Reach | None) -> dict[str, Any]:
-    """What a test can tell apart as one JSON object (`elastogeo.explanation/1`)."""
+    """What a test can distinguish as one JSON object (`elastogeo.explanation/1`)."""
     campaign, confounding = explained.campaign, explained.confounding
     return document(
         EXPLANATION_SCHEMA,

@@ -1,4 +1,4 @@
-"""What no test between tool and workpiece tells apart, why, and what would."""
+"""What no test between tool and workpiece distinguishes, why, and what would."""
 
 from __future__ import annotations
 

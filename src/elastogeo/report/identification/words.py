@@ -1,4 +1,4 @@
-"""What the report says in words: what the test cannot tell apart, and what to keep in mind. Only what applies is said."""
+"""What the report says in words: what the test cannot distinguish, and what to keep in mind. Only what applies is said."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _GAIN = re.compile(r"E_([XYZ])(?:\1)1")
 
 
 def confounding_words(found: Confounding) -> list[str]:
-    """What the test can and cannot tell apart, in sentences."""
+    """What the test can and cannot distinguish, in sentences."""
     asked = len(found.labels)
     if found.rank == asked:
         return [f"Every one of the {asked} parameters that were asked for is distinguished from all others."]
@@ -54,7 +54,7 @@ def confounding_words(found: Confounding) -> list[str]:
 
 
 def banner(result: Identification) -> list[str]:
-    """What must be said before anything else where compliance and geometry are not told apart; else nothing."""
+    """What must be said before anything else where compliance and geometry are not distinguished; else nothing."""
     if all_separated(result):
         return []
     return [

@@ -91,7 +91,7 @@ def split_figure(found: PathPrediction) -> Figure:
                 ax.plot(way, values, color=_PARTS[name], label=name)
                 ax.fill_between(way, values - wide, values + wide, color=_PARTS[name], alpha=0.18, linewidth=0)
                 if not np.isfinite(values).any():
-                    ax.plot([], [], " ", label=f"({name}: not told apart)")
+                    ax.plot([], [], " ", label=f"({name}: not distinguished)")
         ax.set_ylabel("[µm]")
         ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     axes[0].set_title(_label(found, k), loc="left")

@@ -13,7 +13,7 @@ from elastogeo.report.numbers import UNKNOWN, significant, value_with_uncertaint
 from elastogeo.report.text import UM
 
 Numbers = np.ndarray[tuple[int], np.dtype[np.intp]]
-NOT_TOLD = "not told apart"
+NOT_TOLD = "not distinguished"
 NOT_ASKED = "none asked for"
 
 

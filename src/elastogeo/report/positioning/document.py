@@ -4,7 +4,7 @@ test, verdict : as in `envelope`; the verdict holds what ISO 230-2 asks for, the
 axis : its letter
 unit : of all deviations and values: "um" or "arcsec"
 target_unit : "mm" or "deg"
-along : whether the positioning of the axis itself was read; if not, straightness (a straight line is taken off) or an angle
+along : whether the positioning of the axis itself was read; if not, straightness (a straight line is subtracted) or an angle
 values : [{name, value, standard_uncertainty, interval95, degrees_of_freedom, measurement_uncertainty, contributions}]
     name : B, mean B, M, E+, E-, E, R+, R-, R, A+, A-, A of ISO 230-2, as many as the readings give
     standard_uncertainty, interval95, degrees_of_freedom : of stated influences and scatter; null with one approach only

@@ -114,7 +114,7 @@ def _sections(found: PositioningResults, scale: Scale) -> Iterator[Section]:
             "that several targets share nearly alike is a little too great, and no U says so.",
             "Deviations count along the command of the axis: positive where it goes too far in its positive direction."
             if found.along
-            else "A straight line through all readings is taken off."
+            else "A straight line through all readings is subtracted."
             if not found.angular
             else "Deviations are those of the sensor.",
         ),

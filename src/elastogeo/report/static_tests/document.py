@@ -20,7 +20,7 @@ places : [{commands, direction, along, runs, line, refusal, drive, drive_refusal
         reason `refusal`
     drive : {axis, feedback, parts, whole, limits, current}, or null (for the reason `drive_refusal`, if positions were
         recorded)
-        parts : [{names, compliance [um/N], acts, share}]; more than one name where parts are not told apart
+        parts : [{names, compliance [um/N], acts, share}]; more than one name where parts are not distinguished
         whole : number [um/N], or null
         limits : what cannot be said, in sentences
         current : number [A/N] of the motor per force, or null; the interval holds zero where friction holds the axis

@@ -15,7 +15,7 @@ from elastogeo.report.drawing.style import BLUE, FAINT, GREY, INK, ORANGE, new_f
 from elastogeo.report.numbers import significant
 from elastogeo.report.text import UM, label, reading_unit
 
-COMPLIANCE, GEOMETRY, MOTION, SETUP, UNTOLD = "compliance", "geometry", "geometry, motion", "set-up", "not told apart"
+COMPLIANCE, GEOMETRY, MOTION, SETUP, UNTOLD = "compliance", "geometry", "geometry, motion", "set-up", "not distinguished"
 _LOOKS: dict[str, dict[str, Any]] = {
     COMPLIANCE: {"facecolor": BLUE},
     GEOMETRY: {"facecolor": ORANGE},

@@ -73,13 +73,13 @@ def parts_figure(result: Identification) -> Figure:
 
 
 def _by_kind(result: Identification, force: float) -> dict[str, list[_Part]]:
-    """The parts of compliance and of geometry; of all together, where the two are not told apart."""
+    """The parts of compliance and of geometry; of all together, where the two are not distinguished."""
     columns = responses_by_force(result)[force].columns * reading_unit(result).factor
     local = next((one.solution.values for one in reversed(result.local) if force in one.forces), None)
     kinds: dict[str, list[_Part]] = {}
     for k, p in enumerate(result.parameters):
         if p.axis:
-            kind = ("compliance" if p.elastic else "geometry") if all_separated(result) else "not told apart"
+            kind = ("compliance" if p.elastic else "geometry") if all_separated(result) else "not distinguished"
             part = _Part(_short(label(p)), columns[:, k] * p.value, None if local is None else columns[:, k] * local[k])
             kinds.setdefault(kind, []).append(part)
     return {kind: sorted(parts, key=lambda part: part.span, reverse=True) for kind, parts in kinds.items()}

@@ -1,4 +1,4 @@
-"""The catalogue of response patterns: what each parameter, or group that cannot be told apart, does to a trace (4.4)."""
+"""The catalogue of response patterns: what each parameter, or group that cannot be distinguished, does to a trace (4.4)."""
 
 from __future__ import annotations
 

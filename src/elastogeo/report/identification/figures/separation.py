@@ -48,7 +48,7 @@ class _Line:
 
 
 def has_both(result: Identification) -> bool:
-    """Whether compliance and geometry of the machine were both identified, and told apart."""
+    """Whether compliance and geometry of the machine were both identified, and distinguished."""
     kinds = {parameter.elastic for parameter in result.parameters if parameter.axis}
     return len(kinds) == 2 and all_separated(result)
 
