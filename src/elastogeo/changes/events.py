@@ -42,6 +42,8 @@ class OpenAlarm(Part):
         Of that person; empty if nobody acknowledged it.
     held_by : str
         Serial number of the instrument whose alarm holds it back; empty if none does.
+    number : int or None
+        By which a person names it; None outside a history.
     """
 
     opened: float
@@ -49,3 +51,4 @@ class OpenAlarm(Part):
     who: str = ""
     why: str = ""
     held_by: str = ""
+    number: int | None = None

@@ -67,6 +67,10 @@ class MachineRow(Part):
         Instrument whose alarm holds its alarm back; empty if none does.
     simulated : str
         From what its tests are simulated; empty if they were measured.
+    model : str
+        Of the machine; empty if it is not known.
+    key : int or None
+        Of the machine in its history; None outside one.
     """
 
     machine: str
@@ -88,6 +92,8 @@ class MachineRow(Part):
     overdue: float
     held_by: str = ""
     simulated: str = ""
+    model: str = ""
+    key: int | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

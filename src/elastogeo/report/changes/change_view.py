@@ -16,6 +16,7 @@ from elastogeo.report.changes.answers import (
     worst_of,
 )
 from elastogeo.report.changes.document import change_json
+from elastogeo.report.changes.points import test_said
 from elastogeo.report.changes.rows import cause_table, event_table, indicator_table, resolves_said, test_table
 from elastogeo.report.changes.words import (
     MARKS,
@@ -144,10 +145,10 @@ def _drift_value(one: IndicatorState) -> KeyValue:
 def _head(verdict: ChangeVerdict) -> Iterator[tuple[str, str]]:
     series = verdict.series
     if len(series):
-        yield "Tests", f"{len(series)}, {short_date(float(series.date[0]))} to {short_date(float(series.date[-1]))}"
+        yield "Tests", f"{len(series)}, {_span([float(day) for day in series.date])}"
     if verdict.baseline is not None and verdict.baseline.tests:
-        first, last = verdict.baseline.tests[0], verdict.baseline.tests[-1]
-        yield "Baseline", f"{_of_tests(verdict)}, {first} to {last}" if first != last else first
+        base = [float(day) for test, day in zip(series.tests, series.date, strict=True) if test in verdict.baseline.tests]
+        yield "Baseline", ", ".join(filter(None, (_of_tests(verdict), _span(base))))
     if series.simulated:
         yield "Data", "simulated"
     instruments = ", ".join(dict.fromkeys(filter(None, series.instruments)))
@@ -158,6 +159,10 @@ def _head(verdict: ChangeVerdict) -> Iterator[tuple[str, str]]:
     if verdict.alarm is not None and verdict.alarm.why:
         yield "Acknowledged", f"{verdict.alarm.who}, {date_said(verdict.alarm.acknowledged)}: {verdict.alarm.why}"
     yield "Judged on", date_said(verdict.now)
+
+
+def _span(days: list[float]) -> str:
+    return " to ".join(dict.fromkeys((short_date(days[0]), short_date(days[-1])))) if days else ""
 
 
 def sections(verdict: ChangeVerdict, worst: IndicatorState | None) -> Iterator[Section]:
@@ -201,7 +206,7 @@ def _how(verdict: ChangeVerdict) -> Iterator[str]:
     if verdict.baseline is not None:
         yield "The baseline is frozen: a person sets it, and sets another after a repair."
     for test, why in verdict.not_judged.items():
-        yield f"{test} is not judged: {why}."
+        yield f"{title_of(test_said(verdict, test))} is not judged: {why}."
     yield "Indicators are what the test determines by itself; a parameter that is only known in a sum is none."
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from elastogeo.changes import ALARM, SUSPECT, ChangeVerdict, IndicatorState, Step
+from elastogeo.report.changes.words import date_said
 
 BASELINE = "baseline"
 ASIDE = "set aside"
@@ -78,7 +79,13 @@ def _mark(
     if step is None:
         return UNJUDGED, verdict.not_judged.get(test, "")
     if step.replaced:
-        return ASIDE, f"{step.replaced} took its place"
-    why = f"repeats {step.repeats}" if step.repeats else ""
+        return ASIDE, f"{test_said(verdict, step.replaced)} took its place"
+    why = f"repeats {test_said(verdict, step.repeats)}" if step.repeats else ""
     marked = one.name in step.over or (step.state == one.state == ALARM)
     return (step.state if marked and step.state in (ALARM, SUSPECT) else QUIET), why
+
+
+def test_said(verdict: ChangeVerdict, test: str) -> str:
+    """A test of a series by its date: `the test of 11 June 2026`; its name is a number where it comes from a store."""
+    series = verdict.series
+    return f"the test of {date_said(float(series.date[series.tests.index(test)]))}" if test in series.tests else test
