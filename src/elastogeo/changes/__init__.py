@@ -13,6 +13,7 @@ from elastogeo.changes.drifts import DRIFT, STEP, Drift
 from elastogeo.changes.due_dates import DUE, NEVER_TESTED, NOT_ASKED, NOT_DUE, OVERDUE, DueDate, due_after, due_of, due_on
 from elastogeo.changes.events import Event, OpenAlarm
 from elastogeo.changes.fleets import MACHINE_STATES, FleetState, MachineRow, MachineState
+from elastogeo.changes.indicators import indicators_of, signatures_of
 from elastogeo.changes.instruments import InstrumentMove
 from elastogeo.changes.kinds import KINDS, Kind
 from elastogeo.changes.priors import Prior, default_prior, fleet_prior
@@ -26,25 +27,12 @@ from elastogeo.changes.records import (
     recomputed_same,
 )
 from elastogeo.changes.references import Reference, reference_from, reference_of
-from elastogeo.changes.result import (
-    ALARM,
-    NO_BASELINE,
-    STATES,
-    STEADY,
-    SUSPECT,
-    WATCH,
-    ChangeVerdict,
-    IndicatorState,
-    Step,
-)
+from elastogeo.changes.result import ALARM, NO_BASELINE, STATES, STEADY, SUSPECT, WATCH, ChangeVerdict, IndicatorState, Step
 from elastogeo.changes.rules import Rule
-from elastogeo.changes.series import Baseline, Indicator, Series, Tolerance
+from elastogeo.changes.run_lengths import cusum_run_length, ewma_run_length, shewhart_run_length
+from elastogeo.changes.series import MOST, Baseline, Indicator, Series, Tolerance
 from elastogeo.changes.verdicts import judge
 from elastogeo.discovery import first_use
-
-if TYPE_CHECKING:
-    from elastogeo.changes.indicators import indicators_of, signatures_of
-from elastogeo.changes.series import MOST
 
 __all__ = [
     "ALARM",
@@ -94,19 +82,21 @@ __all__ = [
     "Signatures",
     "Step",
     "Tolerance",
+    "cusum_run_length",
     "default_prior",
     "due_after",
     "due_of",
     "due_on",
+    "ewma_run_length",
+    "first_use",
     "fleet_prior",
     "indicators_of",
     "judge",
     "recomputed_same",
     "reference_from",
     "reference_of",
+    "shewhart_run_length",
     "signatures_of",
     "start",
     "step",
 ]
-
-__getattr__ = first_use(__name__, {"indicators": "indicators_of signatures_of"})

@@ -138,7 +138,7 @@ def step(
     repeat = here & again
     before = _choose(again, charts.before, charts.running)
     warm = np.asarray(temperature, dtype=float)[..., np.newaxis] - reference.temperature
-    off = np.where(np.isfinite(warm) & (reference.slope != 0), warm, 0.0)
+    off = np.where(np.isfinite(warm), warm, 0.0)
     expected = reference.mean + reference.slope * off
     scatter = _own_scatter(reference, warm, standard_uncertainty)
     running = _choose(here, _blend(before, rule.smoothing, value - expected, scatter, off), charts.running)

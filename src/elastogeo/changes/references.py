@@ -18,11 +18,12 @@ from elastogeo.machine import Array
 
 Marks = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
-LEAST_TEMPERATURES = 8
-"""Tests of a baseline with a temperature below which no slope is taken from them."""
+PER_KELVIN = 0.4
+"""What a kelvin is expected to change, in standard deviations between tests, before a baseline has shown it: a season of
+5 K moves an indicator by two."""
 
-LEAST_RANGE = 3.0
-"""Spread [K], from the coldest to the warmest, below which no slope is taken."""
+LEAST_TEMPERATURES = 3
+"""Tests of a baseline whose temperature is known, below which temperatures are left out."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,11 +43,12 @@ class Reference(ByValue):
     relevance : array, shape (..., q)
         Least change that matters, in the units of the kinds.
     slope : array, shape (..., q) [1/K]
-        What a kelvin changes; 0 where the baseline does not tell it.
+        What a kelvin changes, drawn to 0 by as much as the baseline does not tell it; 0 without temperatures.
     temperature : array, shape (..., q) [degC]
-        Mean of the baseline; 0 where there is no slope.
+        Mean of the baseline; NaN without temperatures.
     spread : array, shape (..., q) [K^2]
-        Sum of squares about it: what the leverage of a temperature rests on. Infinite where there is no slope.
+        What the leverage of a temperature rests on: sum of squares about it, and what is known of a slope beforehand.
+        Infinite where there is no slope.
     unknown : array, shape (..., q)
         Standard deviation that the temperatures of the baseline made: how far off a test may be without one.
     """
@@ -123,37 +125,41 @@ def reference_from(
 
     Notes
     -----
-    s^2 = (nu0 s0^2 + nu s_b^2) / (nu0 + nu), where nu is m - 1, or m - 2 with a slope; never below the mean u^2.
+    s^2 = (nu0 s0^2 + nu s_b^2) / (nu0 + nu), nu = m - 1; never below the mean u^2.
+
+    The slope b is a regression in which 0 +- `PER_KELVIN` s is one observation more: b = sum(dT dx) / (S + s^2 / b0^2). A
+    baseline that saw hot and cold days tells it, one in an even room hardly: a hot day then counts with what it *may* do,
+    neither with nothing nor with a slope made of scatter. nu is less by the share of the slope that the baseline tells.
     """
     shown = np.isfinite(value)
     m = np.sum(shown, axis=-2).astype(float)
     mean = _mean(value, shown)
     warm = _temperatures(shown, temperature)
-    centre = _mean(warm, shown)
-    off = np.where(shown, warm - centre[..., np.newaxis, :], 0.0)
-    spread = np.sum(off**2, axis=-2)
-    used = _tells_slope(shown, warm)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        slope = np.where(used, np.sum(off * np.where(shown, value, 0.0), axis=-2) / spread, 0.0)
-    by_warmth = np.where(used[..., np.newaxis, :], slope[..., np.newaxis, :] * off, 0.0)
-    left = np.where(shown, value - mean[..., np.newaxis, :] - by_warmth, 0.0)
-    own = np.maximum(m - 1 - used, 0.0)
-    worth = prior.degrees_of_freedom + own
-    variance = (prior.degrees_of_freedom * prior.deviation**2 + np.sum(left**2, axis=-2)) / worth
+    known = shown & np.isfinite(warm)
+    centre = _mean(warm, known)
+    off = np.where(known, warm - centre[..., np.newaxis, :], 0.0)
+    left = np.where(shown, value - mean[..., np.newaxis, :], 0.0)
+    used = np.sum(known, axis=-2) >= LEAST_TEMPERATURES
+    seen = np.sum(off**2, axis=-2)
+    spread = np.where(used, seen + 1 / PER_KELVIN**2, np.inf)
+    product = np.sum(off * left, axis=-2)
+    slope = product / spread
+    worth = prior.degrees_of_freedom + np.maximum(m - 1 - seen / spread, 0.0)
+    variance = (prior.degrees_of_freedom * prior.deviation**2 + np.sum(left**2, axis=-2) - slope * product) / worth
     if standard_uncertainty is not None:
         stated = _mean(standard_uncertainty**2, shown & np.isfinite(standard_uncertainty))
         variance = np.maximum(variance, np.nan_to_num(stated))
-    scatter = np.sqrt(np.where(used, spread, 0.0) / np.maximum(m - 1, 1.0))
+    scatter = np.where(used, seen, 0.0) / np.maximum(np.sum(known, axis=-2) - 1, 1)
     return Reference(
-        mean,
-        np.sqrt(variance),
-        worth,
-        m,
-        np.zeros(m.shape),
-        slope,
-        np.where(used, centre, 0.0),
-        np.where(used, spread, np.inf),
-        np.abs(slope) * scatter,
+        mean=mean,
+        deviation=np.sqrt(variance),
+        degrees_of_freedom=worth,
+        count=m,
+        relevance=np.zeros(m.shape),
+        slope=slope,
+        temperature=np.where(used, centre, np.nan),
+        spread=spread,
+        unknown=np.sqrt((slope**2 + variance / spread) * scatter),
     )
 
 
@@ -168,13 +174,3 @@ def _temperatures(shown: Marks, temperature: Array | None) -> Array:
     if temperature is None:
         return np.full(shown.shape, np.nan)
     return np.broadcast_to(np.asarray(temperature)[..., np.newaxis], shown.shape)
-
-
-def _tells_slope(shown: Marks, warm: Array) -> Marks:
-    """Whether all tests of the baseline have a temperature, they are enough, and far enough apart."""
-    known = ~np.any(shown & np.isnan(warm), axis=-2)
-    span = np.max(np.where(shown, warm, -np.inf), axis=-2, initial=-np.inf) - np.min(
-        np.where(shown, warm, np.inf), axis=-2, initial=np.inf
-    )
-    tells: Marks = known & (np.sum(shown, axis=-2) >= LEAST_TEMPERATURES) & (span >= LEAST_RANGE)
-    return tells
