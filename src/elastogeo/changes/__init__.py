@@ -13,7 +13,6 @@ from elastogeo.changes.drifts import DRIFT, STEP, Drift
 from elastogeo.changes.due_dates import DUE, NEVER_TESTED, NOT_ASKED, NOT_DUE, OVERDUE, DueDate, due_after, due_of, due_on
 from elastogeo.changes.events import Event, OpenAlarm
 from elastogeo.changes.fleets import MACHINE_STATES, FleetState, MachineRow, MachineState
-from elastogeo.changes.indicators import indicators_of, signatures_of
 from elastogeo.changes.instruments import InstrumentMove
 from elastogeo.changes.kinds import KINDS, Kind
 from elastogeo.changes.priors import Prior, default_prior, fleet_prior
@@ -27,12 +26,26 @@ from elastogeo.changes.records import (
     recomputed_same,
 )
 from elastogeo.changes.references import Reference, reference_from, reference_of
-from elastogeo.changes.result import ALARM, NO_BASELINE, STATES, STEADY, SUSPECT, WATCH, ChangeVerdict, IndicatorState, Step
+from elastogeo.changes.result import (
+    ALARM,
+    NO_BASELINE,
+    STATES,
+    STEADY,
+    SUSPECT,
+    WATCH,
+    ChangeVerdict,
+    IndicatorState,
+    Step,
+)
 from elastogeo.changes.rules import Rule
 from elastogeo.changes.run_lengths import cusum_run_length, ewma_run_length, shewhart_run_length
-from elastogeo.changes.series import MOST, Baseline, Indicator, Series, Tolerance
+from elastogeo.changes.series import Baseline, Indicator, Series, Tolerance
 from elastogeo.changes.verdicts import judge
 from elastogeo.discovery import first_use
+
+if TYPE_CHECKING:
+    from elastogeo.changes.indicators import indicators_of, signatures_of
+from elastogeo.changes.series import MOST
 
 __all__ = [
     "ALARM",
@@ -88,7 +101,6 @@ __all__ = [
     "due_of",
     "due_on",
     "ewma_run_length",
-    "first_use",
     "fleet_prior",
     "indicators_of",
     "judge",
@@ -100,3 +112,5 @@ __all__ = [
     "start",
     "step",
 ]
+
+__getattr__ = first_use(__name__, {"indicators": "indicators_of signatures_of"})
