@@ -11,6 +11,7 @@ import numpy as np
 from elastogeo.changes.causes import Cause, causes_of
 from elastogeo.changes.change_points import ChangePoint, Since, change_point_of, since_baseline
 from elastogeo.changes.charts import start
+from elastogeo.changes.checks import checks_of
 from elastogeo.changes.drifts import DRIFT, YEAR, Drift, Line, drift_of, line_of, shape_of
 from elastogeo.changes.priors import Prior
 from elastogeo.changes.references import Reference, reference_of
@@ -81,7 +82,7 @@ def judge(
         change_point=point,
         causes=causes,
         cannot_tell=cannot_tell,
-        verdict=(),
+        verdict=checks_of(series, baseline, prior, rule, since, found, indicators, point, causes),
     )
 
 
