@@ -15,20 +15,8 @@ from elastogeo.observe import Imperfection
 from elastogeo.prediction import simulated_points
 from elastogeo.prediction.compensation import PathCompensation
 from elastogeo.sources import simulate
+from tests.prediction.loaded_circle import CONFOUNDED, TRUTH, identified
 
-TRUTH = {
-    "C_XXX": 6.2e-5,
-    "C_XYX": 1.1e-5,
-    "C_YYY": 4.3e-5,
-    "C_CXY": 4e-8,
-    "C_CYY": -6e-8,
-    "C_CCY": 2e-10,
-    "E_XX1": -1.2e-4,
-    "E_YX2": 2.2e-7,
-    "E_XY2": -1.5e-7,
-    "E_YY1": 1.8e-4,
-    "E_C(0Y)X": 9e-5,
-}
 CUT = Cut(ConstantForce((-100.0, 300.0, 0.0), "path"))
 
 
@@ -56,9 +44,7 @@ sections = [
 
 @pytest.fixture(scope="module")
 def result() -> Identification:
-    """Of the loaded circle at seven levels, simulated exactly, with noise."""
-    test = eg.read_test(example_test())
-    return eg.identify(simulate(test, {**TRUTH, "E_Xt0": 0.01}, Imperfection(noise=2e-4), seed=3))
+    return identified(noise=2e-4)
 
 
 def slot(radius: float = 50.0) -> Program:
@@ -147,10 +133,7 @@ def test_what_was_not_asked_or_not_determined_is_not_moved(result):
     found = eg.compensate_path(result, slot(), CUT)
     assert [(out.names, out.reason) for out in found.left_out] == [(("z",), "not asked")]
     assert np.ptp(found.commands[:, result.campaign.machine.index("Z")]) == 0
-    confounded = eg.identify(
-        simulate(eg.read_test(example_test()), TRUTH, Imperfection(noise=2e-4), seed=3),
-        parameters=["planar-xy", "E_XX1", "E_YX2", "E_XY2", "E_YY1", "E_C(0Y)X"],
-    )
+    confounded = identified(noise=2e-4, parameters=CONFOUNDED)
     left = eg.compensate_path(confounded, slot(), Cut(ConstantForce((300.0, 0.0, 0.0))))
     assert ("y",) in [out.names for out in left.left_out if out.reason == "not determined"]
     assert left.components == ("x",)

@@ -9,7 +9,6 @@ import pytest
 
 import elastogeo as eg
 from elastogeo.errors import InputError
-from elastogeo.formats import example_test
 from elastogeo.identification import Identification
 from elastogeo.machine import (
     ConstantForce,
@@ -24,30 +23,13 @@ from elastogeo.machine import (
     parse_topology,
     path_of_commands,
 )
-from elastogeo.observe import Imperfection
 from elastogeo.prediction import DEVIATION_COMPONENTS, Piece, knowledge_of, path_deviation, simulated_points
-from elastogeo.sources import simulate
-
-TRUTH = {
-    "C_XXX": 6.2e-5,
-    "C_XYX": 1.1e-5,
-    "C_YYY": 4.3e-5,
-    "C_CXY": 4e-8,
-    "C_CYY": -6e-8,
-    "C_CCY": 2e-10,
-    "E_XX1": -1.2e-4,
-    "E_YX2": 2.2e-7,
-    "E_XY2": -1.5e-7,
-    "E_YY1": 1.8e-4,
-    "E_C(0Y)X": 9e-5,
-}
+from tests.prediction.loaded_circle import CONFOUNDED, TRUTH, identified
 
 
 @pytest.fixture(scope="module")
 def result() -> Identification:
-    """Of the loaded circle at seven levels, simulated exactly with little noise."""
-    test = eg.read_test(example_test())
-    return eg.identify(simulate(test, {**TRUTH, "E_Xt0": 0.01}, Imperfection(noise=2e-5), seed=3))
+    return identified(noise=2e-5)
 
 
 def pocket(machine: Machine, points: int = 50) -> ToolPath:
@@ -91,8 +73,7 @@ def test_nothing_is_predicted_where_nothing_was_asked(result: Identification) ->
 
 def test_what_the_circle_cannot_tell_has_no_value_and_no_interval() -> None:
     """A purely radial force shows C_XY + C_YX only: what a force does across itself is not known, along itself it is."""
-    test = simulate(eg.read_test(example_test()), TRUTH, Imperfection(noise=2e-5), seed=3)
-    result = eg.identify(test, parameters=["planar-xy", "E_XX1", "E_YX2", "E_XY2", "E_YY1", "E_C(0Y)X"])
+    result = identified(noise=2e-5, parameters=CONFOUNDED)
     found = path_deviation(result, pocket(result.campaign.machine), Cut(ConstantForce((300.0, 0.0, 0.0))))
     assert found.supported[:, 0].all()
     assert not found.supported[:, 1].any()
