@@ -65,8 +65,8 @@ def test_the_report_has_its_files(folder: Path, tmp_path: Path) -> None:
     ("arguments", "message"),
     [
         (["--set", "type"], "--set is 'type'; give a name and a value, as in type=1"),
-        (["--zero", "X=0"], "--zero is X=0; name the axis with its unit"),
-        (["--zero", "X_mm=near"], "--zero is X_mm=near; give a number"),
+        (["--zero", "X=0"], "--zero is 'X=0'; name the axis with its unit, X_mm"),
+        (["--zero", "X_mm=near"], "--zero of X is 'near'; give a number, as in X_mm=0"),
         (["--control", "abacus"], "no compensation files are known of a control 'abacus'"),
         (["--set", "colour=red"], "LinuxCNC screw compensation has no setting 'colour'"),
     ],

@@ -98,11 +98,11 @@ def test_what_is_not_told_is_hatched_and_null_in_every_file(folder: Path, tmp_pa
 @pytest.mark.parametrize(
     ("wrong", "why"),
     [
-        (["--along", "X=-1:1:3"], "--along is 'X=-1:1:3'; name the axis with its unit, as in X_mm=-200:200:21"),
+        (["--along", "X=-1:1:3"], "--along is 'X=-1:1:3'; name the axis with its unit, X_mm, as in X_mm=-200:200:21"),
         (["--along", "X_mm=-1:1"], "give first, last and how many, as in -200:200:21"),
         (["--along", "X_mm=-1:1:3:4"], "give first, last and how many, as in -200:200:21"),
         (["--at", "X_mm=here"], "--at of X is 'here'; give a number"),
-        (["--at", "X_mm=1", "--at", "X_mm=2"], "--at names axis X twice; name each once"),
+        (["--at", "X_mm=1", "--at", "X_mm=2"], "--at gives X_mm twice; give it once"),
         (["--direction", "1,a,0"], "--direction is '1,a,0'; give numbers, as in 1,1,0"),
     ],
 )

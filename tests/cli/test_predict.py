@@ -47,14 +47,30 @@ def test_json_and_report_come_of_one_cut_file(elastogeo: Elastogeo, slot: str, t
     assert files >= {"report.html", "report.pdf", "report.json", "plan.svg", "way.svg", "split.svg"}
 
 
+def test_the_zero_is_given_axis_by_axis_in_mm_and_degrees(elastogeo: Elastogeo, slot: str) -> None:
+    """A table at C = 90 degrees has turned by -90 (ISO 841): the tool at (100, -50) is at (50, 100) along its axes."""
+    zero = ("--zero", "X_mm=100", "--zero", "Y_mm=-50", "--zero", "C_deg=90")
+    code, out, _ = elastogeo("predict", TEST, "--path", slot, *zero, "--json")
+    first = json.loads(out)["points"][0]
+    assert code == 0
+    assert (first["x_mm"], first["y_mm"]) == pytest.approx((60 + 50, 100))
+
+
 @pytest.mark.parametrize(
     ("arguments", "why"),
     [
         (("--force", "1,two,3"), "--force is '1,two,3', neither a file nor numbers; write three in N"),
         (("--force", "1,2"), "three numbers in N, along x, y and z; 2 arrived"),
-        (("--zero", "Q=1"), "--zero names 'Q', which is no axis"),
-        (("--zero", "X=left"), "--zero is 'X=left'; write axis commands in mm and degrees"),
-        (("--zero", "X=480"), "the path needs X from 420 to 540 mm, its travel is -500 to 500 mm"),
+        (("--zero", "Q_mm=1"), "--zero names 'Q', which is no axis"),
+        (("--zero", "X_mm=left"), "--zero of X is 'left'; give a number, as in X_mm=100"),
+        (("--zero", "X_mm=nan"), "--zero of X is 'nan'; give a number, as in X_mm=100"),
+        (("--zero", "X_mm"), "--zero is 'X_mm'; give a name and a value, as in X_mm=100"),
+        (("--zero", "X_mm=1", "--zero", "X_mm=2"), "--zero gives X_mm twice; give it once"),
+        (("--zero", "X=480"), "--zero is 'X=480'; name the axis with its unit, X_mm, as in X_mm=100"),
+        (("--zero", "X_deg=480"), "--zero is 'X_deg=480'; name the axis with its unit, X_mm, as in X_mm=100"),
+        (("--zero", "C_mm=30"), "--zero is 'C_mm=30'; name the axis with its unit, C_deg, as in X_mm=100"),
+        (("--zero", "U_mm=1"), "has no axis 'U'"),
+        (("--zero", "X_mm=480"), "the path needs X from 420 to 540 mm, its travel is -500 to 500 mm"),
     ],
 )
 def test_what_will_not_do_is_refused(elastogeo: Elastogeo, slot: str, arguments: tuple[str, ...], why: str) -> None:

@@ -8,8 +8,8 @@ from typing import Annotated, Any
 import typer
 
 import elastogeo as eg
+from elastogeo.cli.axis_values import axis_values, named
 from elastogeo.cli.options import AsJson, Parameters, Report, TestPaths
-from elastogeo.errors import InputError
 
 
 def compensate(
@@ -50,6 +50,7 @@ def compensate(
     """
     from elastogeo.cli import screen
 
+    at_zero = axis_values(zero, "--zero", "X_mm=0")
     written: tuple[Path, ...] = ()
     with screen.progress("reading the runs", quiet=as_json) as step:
         result: object
@@ -58,14 +59,14 @@ def compensate(
             known = eg.identify(eg.read_campaign(tests), parameters=parameters)
             step("predicting along the path")
             loads = None if cut is None else eg.read_cut(cut)
-            moved = result = eg.compensate_path(known, way, loads, zero=_zeros(zero))
+            moved = result = eg.compensate_path(known, way, loads, zero=at_zero)
             if output and moved.components:
                 written = eg.write_program(moved.program, output / program.name, flavour)
         else:
             results = _results(tests, parameters)
             step("evaluating")
             found = result = eg.compensate(
-                *results, control=control, settings=_pairs(setting, "--set", "type=1"), zero_at=_zeros(zero)
+                *results, control=control, settings=named(setting, "--set", "type=1"), zero_at=at_zero
             )
             written = found.write(output) if output and found.files else ()
     if written and not as_json:
@@ -86,30 +87,3 @@ def _results(tests: list[Path], parameters: list[str] | None) -> list[Any]:
 
 def _is_campaign(path: Path) -> bool:
     return path.name == "campaign.toml" or (path / "campaign.toml").exists()
-
-
-def _pairs(given: list[str] | None, option: str, example: str) -> dict[str, str]:
-    pairs = {}
-    for text in given or ():
-        name, equals, value = text.partition("=")
-        if not (name and equals and value):
-            raise InputError(f"{option} is {text!r}; give a name and a value, as in {example}")
-        pairs[name.strip()] = value.strip()
-    return pairs
-
-
-def _zeros(given: list[str] | None) -> dict[str, float]:
-    """Positions in the units of the house, by axis."""
-    from math import radians
-
-    found = {}
-    for name, value in _pairs(given, "--zero", "X_mm=0").items():
-        axis, _, unit = name.partition("_")
-        try:
-            place = float(value)
-        except ValueError:
-            raise InputError(f"--zero is {name}={value}; give a number, as in X_mm=0") from None
-        if unit not in ("mm", "deg"):
-            raise InputError(f"--zero is {name}={value}; name the axis with its unit, as in X_mm=0 or C_deg=0")
-        found[axis] = radians(place) if unit == "deg" else place
-    return found

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 import elastogeo as eg
+from elastogeo.cli.axis_values import axis_values, by_axis
 from elastogeo.cli.options import AsJson, Parameters, Reciprocal, Report, TestPaths
 from elastogeo.errors import InputError
 
@@ -59,8 +60,8 @@ def map(
         step("identifying and mapping")
         found = eg.map_compliance(
             asked,
-            along={axis: _range(text, axis) for axis, _, text in _settings(along, "--along", "X_mm=-200:200:21")} or None,
-            at={axis: _place(text, unit, axis) for axis, unit, text in _settings(at, "--at", "C_deg=30")},
+            along={axis: _range(text, axis) for axis, text in by_axis(along, "--along", "X_mm=-200:200:21").items()} or None,
+            at=axis_values(at, "--at", "C_deg=30"),
             direction=_direction(direction),
             tool=None if tool is None else _numbers(tool, "--tool", "0,0,-160"),
             least_stiffness=None if least_stiffness is None else least_stiffness * 1000.0,
@@ -70,21 +71,6 @@ def map(
             reciprocal=reciprocal,
         )
     screen.show(found, report, as_json)
-
-
-def _settings(given: list[str] | None, option: str, example: str) -> list[tuple[str, str, str]]:
-    """Axis, unit and text of options such as `X_mm=0`."""
-    found = []
-    for text in given or ():
-        name, equals, value = text.partition("=")
-        axis, _, unit = name.strip().partition("_")
-        if not (axis and equals and value.strip()) or unit not in ("mm", "deg"):
-            raise InputError(f"{option} is {text!r}; name the axis with its unit, as in {example}")
-        found.append((axis, unit, value.strip()))
-    twice = sorted({axis for axis, *_ in found if [a for a, *_ in found].count(axis) > 1})
-    if twice:
-        raise InputError(f"{option} names axis {twice[0]} twice; name each once")
-    return found
 
 
 def _range(text: str, axis: str) -> tuple[float, float, int]:
@@ -97,16 +83,6 @@ def _range(text: str, axis: str) -> tuple[float, float, int]:
     if len(parts) > _RANGE:
         raise InputError(f"--along of {axis} is {text!r}; give first, last and how many, as in -200:200:21")
     return first, last, count
-
-
-def _place(text: str, unit: str, axis: str) -> float:
-    from math import radians
-
-    try:
-        value = float(text)
-    except ValueError:
-        raise InputError(f"--at of {axis} is {text!r}; give a number, as in C_deg=30") from None
-    return radians(value) if unit == "deg" else value
 
 
 def _direction(text: str) -> str | tuple[float, ...]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 import elastogeo as eg
+from elastogeo.cli.axis_values import axis_values
 from elastogeo.cli.options import AsJson, Parameters, Reciprocal, Report, TestPaths
 from elastogeo.errors import InputError
 
@@ -27,7 +28,8 @@ def predict(
     ] = None,
     along: Annotated[Directions, typer.Option(help="Directions in which --force counts.")] = "workpiece",
     zero: Annotated[
-        str | None, typer.Option(help="Axis commands at the zero of the workpiece (G54) [mm, deg], as X=100,Y=-50,C=30.")
+        list[str] | None,
+        typer.Option(help="Command of an axis at the zero of the workpiece (G54), as in X_mm=100; may be repeated."),
     ] = None,
     feed: Annotated[float | None, typer.Option(help="Feed [mm/min] where the path says none.")] = None,
     step: Annotated[float, typer.Option(help="Distance of points along a program [mm].")] = 1.0,
@@ -49,17 +51,18 @@ def predict(
     \b
     Examples:
       elastogeo predict my-campaign --path contour.csv --force 0,-200,0 --along path
-      elastogeo predict my-campaign --path slot.nc --cut slot.toml --zero X=100,Y=-50
+      elastogeo predict my-campaign --path slot.nc --cut slot.toml --zero X_mm=100 --zero Y_mm=-50
     """
     from elastogeo.cli import screen
 
+    at_zero = axis_values(zero, "--zero", "X_mm=100")
     with screen.progress("reading the runs", quiet=as_json) as now:
         asked = eg.read_campaign(tests)
         now("identifying")
         result = eg.identify(asked, parameters=parameters, reciprocal=reciprocal)
         now("predicting along the path")
         per_second = None if feed is None else feed / 60
-        made = eg.read_path(path, result.campaign.machine, zero=_zero(zero), feed=per_second, step=step)
+        made = eg.read_path(path, result.campaign.machine, zero=at_zero, feed=per_second, step=step)
         loads = None if cut is None else eg.read_cut(cut)
         found = eg.predict(result, made, loads, force=_force(force, along), along=along, prior=prior, datum=datum)
     screen.show(found, report, as_json)
@@ -77,22 +80,3 @@ def _force(given: str | None, along: Directions) -> tuple[float, ...] | PathForc
         return tuple(float(part) for part in given.split(","))
     except ValueError:
         raise InputError(f"--force is {given!r}, neither a file nor numbers; write three in N, as 0,-200,0") from None
-
-
-def _zero(given: str | None) -> dict[str, float] | None:
-    """Axis commands in mm and rad, of `X=100,C=30` in mm and degrees."""
-    if given is None:
-        return None
-    from math import radians
-
-    commands = {}
-    for part in given.split(","):
-        axis, equals, value = (piece.strip() for piece in part.partition("="))
-        try:
-            number = float(value)
-        except ValueError:
-            raise InputError(f"--zero is {given!r}; write axis commands in mm and degrees, as X=100,Y=-50,C=30") from None
-        if not equals or axis not in tuple("XYZUVWABC"):
-            raise InputError(f"--zero names {axis!r}, which is no axis; write for example X=100,Y=-50,C=30")
-        commands[axis] = radians(number) if axis in "ABC" else number
-    return commands
