@@ -9,6 +9,7 @@ import pytest
 
 from elastogeo.errors import FormatError
 from elastogeo.formats import read_design
+from elastogeo.formats.text.files_read import files_read
 
 TABLE = """# from the drawing office
 name,value,unit
@@ -119,3 +120,23 @@ def test_what_is_no_text_or_too_large_is_refused(tmp_path: Path) -> None:
         read_design(large)
     with pytest.raises(FormatError, match="cannot be opened"):
         read_design(tmp_path / "none")
+
+
+def test_a_file_is_opened_once_and_noted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A table and TOML: what is kept beside a result is what was read."""
+    read = open
+    seen: list[Path] = []
+
+    def counted(file: Path, *given: object, **named: object) -> object:
+        seen.append(Path(file))
+        return read(file, *given, **named)  # type: ignore[call-overload]
+
+    monkeypatch.setattr("builtins.open", counted)
+    monkeypatch.setattr("io.open", counted)
+    for text in (TABLE, HEAD + '[[values]]\nname = "K_XXX"\nvalue = 180\nunit = "N/um"\n'):
+        path = written(tmp_path, text)
+        seen.clear()
+        with files_read() as found:
+            read_design(path)
+        assert seen == [path]
+        assert list(found) == [path]

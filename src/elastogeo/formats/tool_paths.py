@@ -16,9 +16,10 @@ import numpy as np
 
 from elastogeo.errors import InputError
 from elastogeo.formats.program_files import flavours, read_program_bytes
-from elastogeo.formats.run_files import opened_run, read_run, read_run_bytes, run_formats
-from elastogeo.formats.text.by_content import claiming
+from elastogeo.formats.run_files import opened_run, read_run_bytes, run_formats
+from elastogeo.formats.text.by_content import claiming, format_of
 from elastogeo.formats.text.table import Table
+from elastogeo.formats.unread import unread
 from elastogeo.machine import (
     Array,
     Directions,
@@ -34,6 +35,14 @@ _COMMANDS = ("command_", "position_")
 _FORCES = ("force_x", "force_y", "force_z")
 _KNOWN = (*"xyzabc", "feed", "block", "cutting", "way", "time", *_FORCES)
 
+_OF_A_PATH = (
+    "a path has axis commands (command_x_mm, command_c_deg) or tool points (x_mm, y_mm, z_mm, c_deg), and feed_mm_min, "
+    "block, cutting, force_x_N, force_y_N, force_z_N"
+)
+"""What the columns of a path are, for messages."""
+
+_OF_FORCES = "forces are columns force_x_N, force_y_N, force_z_N, beside way_mm or time_s, or one row a point of the path"
+_NO_TABLE = "no table whose columns say what they are"
 
 STEP = 1.0
 """Distance [mm] of two points along a block of a program, unless another is asked for."""
@@ -71,7 +80,8 @@ def read_path(
     data, number = opened_run(file)
     if number is None and claiming(flavours(), data) and not claiming(run_formats(), data):
         return path_of_program(read_program_bytes(data, str(file)), machine, step, zero)
-    return path_of_table(read_run_bytes(data, str(file), number), machine, zero, feed)
+    table = _table(data, str(file), number, f"no NC program, and {_NO_TABLE}; {_OF_A_PATH}")
+    return path_of_table(table, machine, zero, feed)
 
 
 def read_forces(
@@ -89,7 +99,9 @@ def read_forces(
     InputError
         If it holds no force.
     """
-    return force_of_table(read_run(file), along, on, relative_uncertainty)
+    data, number = opened_run(file)
+    table = _table(data, str(file), number, f"{_NO_TABLE}; {_OF_FORCES}")
+    return force_of_table(table, along, on, relative_uncertainty)
 
 
 def path_of_table(
@@ -120,7 +132,9 @@ def path_of_table(
         name[-1].upper(): name for name in columns if name.startswith(_COMMANDS) and len(name.rpartition("_")[2]) == 1
     }
     if commanded:
-        commands = np.tile([float((zero or {}).get(axis, 0.0)) for axis in machine.axes], (table.rows, 1))
+        commands = np.zeros((table.rows, len(machine.axes)))
+        for axis, place in (zero or {}).items():
+            commands[:, machine.index(axis)] = place
         for axis, name in commanded.items():
             commands[:, machine.index(axis)] = columns[name]
         return path_of_commands(machine, commands, feeds, block, cutting, name=table.source)
@@ -153,10 +167,7 @@ def force_of_table(
     """
     present = [name for name in _FORCES if name in table.columns]
     if not present:
-        raise InputError(
-            f"{table.source}: has no column of forces; write force_x_N, force_y_N and force_z_N. It has "
-            f"{', '.join(table.columns)}"
-        )
+        raise InputError(f"{table.source}: has no column of forces but {', '.join(table.columns)}; {_OF_FORCES}")
     force = np.column_stack([table.columns.get(name, np.zeros(table.rows)) for name in _FORCES])
     for name in ("way", "time"):
         if name in table.columns:
@@ -165,16 +176,22 @@ def force_of_table(
     return MeasuredForce(np.arange(table.rows, dtype=float), force, "point", along, on, relative_uncertainty, table.source)
 
 
+def _table(data: bytes, source: str, number: int | None, otherwise: str) -> Table:
+    """The table in a file of any format of runs; `otherwise` says what a file of none of them is, and what to write."""
+
+    def explained(data: bytes) -> str:
+        return unread(data, run=False) or f"begins with {data[:20]!r}, which is {otherwise}"
+
+    return read_run_bytes(data, source, number, claimed=[format_of(run_formats(), data, source, explained)])
+
+
 def _check(table: Table) -> None:
     unknown = [name for name in table.columns if name not in _KNOWN and not name.startswith(_COMMANDS)]
     moving = [name for name in table.columns if name in "xyzabc" or name.startswith(_COMMANDS)]
     points, commands = [n for n in moving if n in "xyzabc"], [n for n in moving if n.startswith(_COMMANDS)]
     if unknown or not moving:
         what = f"a column {unknown[0]!r}, which no path has" if unknown else "no column of a path"
-        raise InputError(
-            f"{table.source}: has {what}; a path has axis commands (command_x_mm, command_c_deg) or tool points (x_mm, "
-            f"y_mm, z_mm, c_deg), and feed_mm_min, block, cutting, force_x_N, force_y_N, force_z_N"
-        )
+        raise InputError(f"{table.source}: has {what}; {_OF_A_PATH}")
     if points and commands:
         raise InputError(
             f"{table.source}: has axis commands ({commands[0]}) and tool points ({points[0]}); take one of the two out"

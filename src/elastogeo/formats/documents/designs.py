@@ -30,8 +30,9 @@ import numpy as np
 
 from elastogeo.equality import ByValue
 from elastogeo.errors import FormatError
+from elastogeo.formats.text.by_content import opened
 from elastogeo.formats.text.delimited import NUMBER, comment_text, split_cells, utf8_text
-from elastogeo.formats.text.toml_documents import build, check_schema, read_document
+from elastogeo.formats.text.toml_documents import build, check_schema, document_of
 from elastogeo.formats.text.units import UNITS
 from elastogeo.machine import COMPONENTS, Array
 
@@ -113,10 +114,7 @@ def read_design(path: str | Path) -> Design:
         If it is neither, a name, a number or a unit is wrong, or a value stands twice: with file, line, and what to write.
     """
     path = Path(path)
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise FormatError(f"{path}: cannot be opened ({error.strerror}); check the path") from None
+    data = opened(path, str(path))
     if len(data) > MAX_BYTES:
         raise FormatError(f"{path}: is larger than {MAX_BYTES // 1_000_000} MB; this is no table of joints")
     try:
@@ -124,7 +122,7 @@ def read_design(path: str | Path) -> Design:
     except FormatError as error:
         raise FormatError(f"{path}: {error}") from None
     separator = _separator(lines)
-    return _of_toml(path) if separator is None else _of_table(path, lines, separator)
+    return _of_toml(path, data) if separator is None else _of_table(path, lines, separator)
 
 
 def _separator(lines: Iterable[str]) -> str | None:
@@ -156,8 +154,8 @@ def _of_table(path: Path, lines: Iterable[str], separator: str) -> Design:
     return _checked(path, Design(path.name, MappingProxyType(values)))
 
 
-def _of_toml(path: Path) -> Design:
-    table = read_document(path)
+def _of_toml(path: Path, data: bytes) -> Design:
+    table = document_of(data, str(path))
     check_schema(table, SCHEMA, str(path))
     document = build(DesignDocument, table, str(path))
     if not 0 <= document.relative_uncertainty < 1:

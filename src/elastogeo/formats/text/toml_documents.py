@@ -42,14 +42,21 @@ def read_document(path: Path) -> dict[str, Any]:
         data = noted(path, path.read_bytes())
     except OSError as error:
         raise FormatError(f"{path}: cannot be opened ({error.strerror}); check the path") from None
+    return document_of(data, str(path))
+
+
+def document_of(data: bytes, source: str) -> dict[str, Any]:
+    """The tables of the bytes of a TOML file, as `read_document`; `source` is for messages."""
     if len(data) > MAX_BYTES:
-        raise FormatError(f"{path}: is larger than {MAX_BYTES // 1_000_000} MB; this is no description of a test or machine")
+        raise FormatError(
+            f"{source}: is larger than {MAX_BYTES // 1_000_000} MB; this is no description of a test or machine"
+        )
     try:
         return tomllib.loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
-        raise FormatError(f"{path}: is no UTF-8 text (byte {error.start}); save it as UTF-8") from None
+        raise FormatError(f"{source}: is no UTF-8 text (byte {error.start}); save it as UTF-8") from None
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise FormatError(f"{path}: is no TOML: {error}; see https://toml.io for how it is written") from None
+        raise FormatError(f"{source}: is no TOML: {error}; see https://toml.io for how it is written") from None
 
 
 def build(kind: type[T], table: Mapping[str, Any], where: str) -> T:
