@@ -123,7 +123,7 @@ def test_a_table_that_is_no_path_is_refused(tmp_path: Path) -> None:
         ("x_mm,command_y_mm\n0,0\n1,1\n", "axis commands .command_y. and tool points .x.; take one of the two out"),
         ("x_mm,block\n0,1\n1,1.5\n", "the column 'block' holds 1.5; count blocks"),
         ("x_mm\n0\n", "at least two points that differ"),
-        ("x,y,z\n0,0,0\n1,1,1\n", "line 1: 3 column headers will not do:\n  column 'x' has no unit: write x_mm"),
+        ("x,y,z\n0,0,0\n1,1,1\n", "line 1: 3 column headers .*:\n  column 'x' has no unit: write x_mm"),
         ("XPOS,YPOS\n0,0\n1,1\n", "begins with b'XPOS,.*, which is no NC program, and no table .*; a path has .*x_mm, y_mm"),
         ("0,0,0\n1,1,1\n", "begins with b'0,0,0.*, which is no NC program, and no table .*; a path has .*x_mm, y_mm"),
         ("%PDF-1.7", "is a PDF, a page for people"),
