@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from sqlalchemy import Connection, Table, insert
 
-from elastogeo.changes import MOST
+from elastogeo.changes import MOST, Signatures
 from elastogeo.errors import InputError
 from elastogeo.history.series_of import days, instant, series_of
 from elastogeo.history.store import Store, schema, write
@@ -154,6 +154,16 @@ def test_a_test_that_repeats_one_outside_the_series_repeats_none(connection: Con
     again = add(connection, schema.test, **row, origin="measured", repeats=other)
     add_analysis(connection, again, X=1.0)
     assert series_of(connection, 1).repeats.tolist() == [-1]
+
+
+def test_what_faults_do_is_told_by_the_first_test_that_decides_and_knows_it(connection: Connection) -> None:
+    row = {"test": add_test(connection, 1, X=1.0), "software": "1.0", "settings": {}, "made_at": BEGAN, "supported": True}
+    assert series_of(connection, 1).signatures is None
+    told = [Signatures((f"drive {axis}",), ("X",), np.array([[size]]), (True,)) for axis, size in (("X", 1.0), ("Y", 2.0))]
+    for day, one in enumerate(told):
+        add(connection, schema.analysis, **row, inputs_sha256=f"{day}", signatures=one.document())
+        row["test"] = add_test(connection, 2 + day)
+    assert series_of(connection, 1).signatures == told[0]
 
 
 def test_a_series_without_tests_is_empty(connection: Connection) -> None:

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
 import numpy as np
 from sqlalchemy import Connection, Select, and_, func, select
 
-from elastogeo.changes import KINDS, MOST, Kind, Series
+from elastogeo.changes import KINDS, MOST, Kind, Series, Signatures
 from elastogeo.errors import InputError
 from elastogeo.history.store.schema import analysis, baseline, indicator, instrument, machine, series, set_aside, test
 
@@ -77,7 +78,8 @@ def series_of(connection: Connection, key: int) -> Series:
     aside = asides_of(connection, key)
     deciding = baseline_tests(connection, key) or {row.id for row in rows} - aside
     names = _names(told, {row.analysis: row.id for row in rows}, deciding)
-    return _series(f"{head.machine}: {head.name}", rows, told, names, aside)
+    made = _series(f"{head.machine}: {head.name}", rows, told, names, aside)
+    return replace(made, signatures=_signatures(connection, [row.analysis for row in rows if row.id in deciding]))
 
 
 def baseline_tests(connection: Connection, key: int) -> set[int]:
@@ -98,6 +100,15 @@ def asides_of(connection: Connection, key: int) -> set[int]:
     )
     last = {row.test: row.aside for row in connection.execute(said)}
     return {found for found, is_aside in last.items() if is_aside}
+
+
+def _signatures(connection: Connection, analyses: Sequence[int]) -> Signatures | None:
+    """How faults move the indicators: of the first of these analyses that says it, since one test of a series serves."""
+    for key in analyses:
+        found = connection.execute(select(analysis.c.signatures).where(analysis.c.id == key)).scalar_one()
+        if found is not None:
+            return Signatures.of_document(found)
+    return None
 
 
 def _counting(key: int, software: str) -> Any:

@@ -8,13 +8,14 @@ import pytest
 from sqlalchemy import select
 
 import elastogeo as eg
-from elastogeo.changes import KINDS, Indicator, indicators_of
+from elastogeo.changes import KINDS, Indicator, Signatures, indicators_of, signatures_of
 from elastogeo.errors import ElastogeoError, InputError, StoreError
 from elastogeo.history.analyses import analyse
 from elastogeo.history.analyses import analysing as analysing_module
 from elastogeo.history.analyses.computation import computed
 from elastogeo.history.analyses.raw import RawFile, laid_out
 from elastogeo.history.analyses.verbs import VERBS, asked_of
+from elastogeo.history.series_of import series_of
 from elastogeo.history.store import Files, Store, audit, read, schema
 from elastogeo.history.store.columns import canonical
 from elastogeo.observe import instruments
@@ -55,6 +56,18 @@ def test_the_store_says_what_the_files_say(store: Store) -> None:
         assert (said["who"], said["what"], said["subject"]) == ("A. Miller", "analyse", f"test {test}")
         assert said["new"]["document_sha256"] == row["document_sha256"]
         assert audit.verify(connection) == ()
+
+
+def test_what_faults_would_do_is_kept_beside_what_is_watched(store: Store) -> None:
+    key = analyse(store, keep_test(store, keep_series(store), files_of(EXAMPLES / "ball-bar-diagnosis")))
+    result = eg.identify(eg.read_test(EXAMPLES / "ball-bar-diagnosis"))
+    wanted = signatures_of(result)
+    assert wanted is not None
+    kept = row_of(store, key)["signatures"]
+    assert isinstance(kept, dict)
+    assert Signatures.of_document(kept) == wanted
+    with read(store) as connection:
+        assert series_of(connection, 1).signatures == wanted
 
 
 def test_a_test_is_analysed_once_by_a_version(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -139,7 +152,8 @@ def test_a_damaged_raw_file_is_no_error_of_the_test(store: Store) -> None:
 def test_analyses_do_not_depend_on_where_they_are_made(tmp_path: Path) -> None:
     """The same bits from another folder, in another order of files."""
     one, other = Files(tmp_path / "one"), Files(tmp_path / "a longer name" / "other")
-    (tmp_path / "a longer name").mkdir()
+    for made in (one, other):
+        made.folder.mkdir(parents=True)
     raw = []
     for path, content in files_of(EXAMPLES / "static-rig").items():
         raw.append(RawFile(path, one.put(content)))
@@ -163,7 +177,7 @@ def test_files_beside_the_folder_of_the_test_lie_beside_it_again(tmp_path: Path)
 
 
 def test_a_path_that_leads_out_is_refused(tmp_path: Path) -> None:
-    files = Files(tmp_path / "files")
+    files = Files(tmp_path)
     raw = [RawFile((tmp_path / "b").as_posix(), files.put(b"x"))]
     with pytest.raises(StoreError, match="leads out of its test"), laid_out(files, raw):
         raise AssertionError("was laid out")

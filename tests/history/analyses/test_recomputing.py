@@ -39,11 +39,11 @@ class StandIn:
         self.seen.append(content)
         settings = {"verb": "identify", **({"attempt": attempt} if attempt > 1 else {})}
         if content in self.errors:
-            return Computed(settings, f"{raw[0].sha256} {attempt}", None, False, (), "cannot be read")
+            return Computed(settings, f"{raw[0].sha256} {attempt}", None, False, (), None, "cannot be read")
         value = float(content) * self.factor
         indicator = Indicator("stiffness X", KINDS["stiffness"], value, 0.1)
         document = {"software": {"version": recomputing_module.VERSION}, "values": [value, 1.0], "name": "circle"}
-        return Computed(settings, f"{raw[0].sha256} {attempt}", document, True, (indicator,), None)
+        return Computed(settings, f"{raw[0].sha256} {attempt}", document, True, (indicator,), None, None)
 
 
 @pytest.fixture

@@ -76,6 +76,7 @@ def _written(connection: Connection, test: int, found: Computed, who: str) -> in
         "made_at": now(),
         "supported": found.supported,
         "error": found.error,
+        "signatures": found.signatures,
         "document_sha256": found.document_sha256,
         "document": found.document,
     }

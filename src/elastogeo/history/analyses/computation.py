@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 import scipy
 
-from elastogeo.changes import Indicator, indicators_of
+from elastogeo.changes import Indicator, indicators_of, signatures_of
 from elastogeo.errors import ElastogeoError
 from elastogeo.history.analyses.raw import RawFile, laid_out
 from elastogeo.history.analyses.verbs import SEED, asked_of
@@ -44,6 +44,8 @@ class Computed:
         That of the result's view; None after an error.
     supported : bool
     indicators : tuple of Indicator
+    signatures : mapping or None
+        How faults of the machine's components move the indicators, as plain values.
     error : str or None
     """
 
@@ -52,6 +54,7 @@ class Computed:
     document: dict[str, Any] | None
     supported: bool
     indicators: tuple[Indicator, ...]
+    signatures: dict[str, Any] | None
     error: str | None
 
     @property
@@ -83,7 +86,7 @@ def computed(files: Files, raw: Sequence[RawFile], attempt: int = 1) -> Computed
             asked = asked_of(folder, [file.path for file in raw])
             settings |= {"verb": asked.verb, "question": asked.question}
             result = asked.answer()
-            view, found = view_of(result), indicators_of(result)
+            view, found, signatures = view_of(result), indicators_of(result), signatures_of(result)
         except ElastogeoError as caught:
             error = str(caught)
         except FAULTS as caught:
@@ -91,9 +94,10 @@ def computed(files: Files, raw: Sequence[RawFile], attempt: int = 1) -> Computed
         error = error.replace(f"{folder}{os.sep}", "").replace(str(folder), "the test")
     whole = settings | {"made_with": made_with()}
     if error:
-        return Computed(whole, inputs_of(raw, settings), None, False, (), error)
+        return Computed(whole, inputs_of(raw, settings), None, False, (), None, error)
     known = tuple(one for one in found if isfinite(one.value))
-    return Computed(whole, inputs_of(raw, settings), dict(view.document), view.supported, known, None)
+    moved = None if signatures is None else signatures.document()
+    return Computed(whole, inputs_of(raw, settings), dict(view.document), view.supported, known, moved, None)
 
 
 def inputs_of(raw: Sequence[RawFile], settings: dict[str, Any]) -> str:

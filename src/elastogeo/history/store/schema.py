@@ -1,7 +1,8 @@
 """The tables. Raw, result and audit rows are written once: the database itself refuses to change or delete them (`FROZEN`).
 
 What changes with time is a row more: a test is set aside, an alarm takes a step, a baseline follows another. Only
-`series_state`, `outbox` and `instrument`, `machine`, `series`, `recipient`, `plan` hold what may be written over.
+`series_state`, `outbox` and `instrument`, `machine`, `series`, `recipient`, `plan`, `campaign` hold what may be written
+over.
 """
 
 from __future__ import annotations
@@ -147,6 +148,7 @@ analysis = _table(
     Column("made_at", Instant, nullable=False),
     Column("supported", Boolean, nullable=False),
     Column("error", Text),  # why there is none
+    Column("signatures", Packed),  # how faults of the machine's components move the indicators; None where nobody knows
     Column("document_sha256", Text),
     Column("document", Packed),  # the view's JSON
     UniqueConstraint("test", "software", "inputs_sha256"),

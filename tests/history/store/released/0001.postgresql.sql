@@ -64,6 +64,7 @@ CREATE TABLE public.analysis (
     made_at bigint NOT NULL,
     supported boolean NOT NULL,
     error text,
+    signatures bytea,
     document_sha256 text,
     document bytea
 );
@@ -505,7 +506,7 @@ INSERT INTO public.alarm VALUES (1, 1, 1, 1, 1772438400000000);
 
 INSERT INTO public.alarm_step VALUES (1, 1, 'open', 1772438400000000, 1, '{"x":[1.5,null,"µ"]}', 'alarm_step.who', 'alarm_step.why');
 
-INSERT INTO public.analysis VALUES (1, 1, 'analysis.software', '{"x":[1.5,null,"µ"]}', 'analysis.inputs_sha256', 1772438400000000, true, 'analysis.error', 'analysis.document_sha256', '\x789cab56aa50b28a36d433d5c92bcdc9d1513ab45529b6160046810709');
+INSERT INTO public.analysis VALUES (1, 1, 'analysis.software', '{"x":[1.5,null,"µ"]}', 'analysis.inputs_sha256', 1772438400000000, true, 'analysis.error', '\x789cab56aa50b28a36d433d5c92bcdc9d1513ab45529b6160046810709', 'analysis.document_sha256', '\x789cab56aa50b28a36d433d5c92bcdc9d1513ab45529b6160046810709');
 
 INSERT INTO public.audit VALUES (1, 1772445600000000, 'A. Miller', 'migrate', 'schema', NULL, '"0001"', 'elastogeo 0.2.0', '0000000000000000000000000000000000000000000000000000000000000000', 'ce7d97f2e9340cbff54c51e346e15d60a6532a369291927f7b27ac24a2aa74cc');
 INSERT INTO public.audit VALUES (2, 1772449200000000, 'A. Miller', 'set aside', 'test 1', 'false', 'true', 'ball not seated', 'ce7d97f2e9340cbff54c51e346e15d60a6532a369291927f7b27ac24a2aa74cc', '4e76478e7bfc408587f7441c872a880ce2d571ef27e7378ecc1ce282608865ed');

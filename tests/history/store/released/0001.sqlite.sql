@@ -35,13 +35,14 @@ CREATE TABLE analysis (
 	made_at BIGINT NOT NULL, 
 	supported BOOLEAN NOT NULL, 
 	error TEXT, 
+	signatures BLOB, 
 	document_sha256 TEXT, 
 	document BLOB, 
 	CONSTRAINT pk_analysis PRIMARY KEY (id), 
 	CONSTRAINT fk_analysis_test_test FOREIGN KEY(test) REFERENCES test (id), 
 	CONSTRAINT uq_analysis_test_software_inputs_sha256 UNIQUE (test, software, inputs_sha256)
 );
-INSERT INTO "analysis" VALUES(1,1,'analysis.software','{"x":[1.5,null,"µ"]}','analysis.inputs_sha256',1772438400000000,1,'analysis.error','analysis.document_sha256',X'789CAB56AA50B28A36D433D5C92BCDC9D1513AB45529B6160046810709');
+INSERT INTO "analysis" VALUES(1,1,'analysis.software','{"x":[1.5,null,"µ"]}','analysis.inputs_sha256',1772438400000000,1,'analysis.error',X'789CAB56AA50B28A36D433D5C92BCDC9D1513AB45529B6160046810709','analysis.document_sha256',X'789CAB56AA50B28A36D433D5C92BCDC9D1513AB45529B6160046810709');
 CREATE TABLE audit (
 	number INTEGER NOT NULL, 
 	at BIGINT NOT NULL, 

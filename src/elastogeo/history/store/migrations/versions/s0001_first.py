@@ -152,6 +152,7 @@ def _what_it_says() -> None:
         sa.Column("made_at", INSTANT, nullable=False),
         sa.Column("supported", sa.Boolean(), nullable=False),
         sa.Column("error", sa.Text(), nullable=True),
+        sa.Column("signatures", sa.LargeBinary(), nullable=True),
         sa.Column("document_sha256", sa.Text(), nullable=True),
         sa.Column("document", sa.LargeBinary(), nullable=True),
         sa.ForeignKeyConstraint(["test"], ["test.id"], name=op.f("fk_analysis_test_test")),
