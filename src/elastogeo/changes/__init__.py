@@ -12,8 +12,16 @@ from elastogeo.changes.charts import Charts, Judged, Running, start, step
 from elastogeo.changes.drifts import DRIFT, STEP, Drift
 from elastogeo.changes.due_dates import DUE, NEVER_TESTED, NOT_ASKED, NOT_DUE, OVERDUE, DueDate, due_after, due_of, due_on
 from elastogeo.changes.events import Event, OpenAlarm
-from elastogeo.changes.fleets import MACHINE_STATES, FleetState, MachineRow, MachineState
-from elastogeo.changes.instruments import InstrumentMove
+from elastogeo.changes.fleets import (
+    MACHINE_STATES,
+    FleetState,
+    MachineRow,
+    MachineState,
+    fleet_state,
+    machine_row,
+    machine_state,
+)
+from elastogeo.changes.instruments import InstrumentMove, instrument_moves
 from elastogeo.changes.kinds import KINDS, Kind
 from elastogeo.changes.priors import Prior, default_prior, fleet_prior
 from elastogeo.changes.records import (
@@ -102,8 +110,12 @@ __all__ = [
     "due_on",
     "ewma_run_length",
     "fleet_prior",
+    "fleet_state",
     "indicators_of",
+    "instrument_moves",
     "judge",
+    "machine_row",
+    "machine_state",
     "recomputed_same",
     "reference_from",
     "reference_of",

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields, replace
+from math import isfinite, nan
+from typing import Any
+
+import numpy as np
 
 from elastogeo.changes.due_dates import OVERDUE
 from elastogeo.changes.instruments import InstrumentMove
-from elastogeo.changes.result import ALARM, NO_BASELINE, STEADY, SUSPECT, WATCH, ChangeVerdict
+from elastogeo.changes.result import ALARM, NO_BASELINE, STEADY, SUSPECT, WATCH, ChangeVerdict, IndicatorState
 from elastogeo.result import Part, Result
 
 MACHINE_STATES = (ALARM, SUSPECT, OVERDUE, WATCH, NO_BASELINE, STEADY)
@@ -62,7 +67,7 @@ class MachineRow(Part):
         Of each indicator its name, state, and greatest |T| over its limit now.
     last_test, due : float or None [d]
     overdue : float [d]
-        How long; zero if it is not.
+        How long, the grace taken off; zero if it is not.
     held_by : str
         Instrument whose alarm holds its alarm back; empty if none does.
     simulated : str
@@ -71,6 +76,9 @@ class MachineRow(Part):
         Of the machine; empty if it is not known.
     key : int or None
         Of the machine in its history; None outside one.
+    grace : float [d]
+        How long after it is due a test still comes in time.
+    open_alarms : int
     """
 
     machine: str
@@ -94,6 +102,23 @@ class MachineRow(Part):
     simulated: str = ""
     model: str = ""
     key: int | None = None
+    grace: float = 0.0
+    open_alarms: int = 0
+
+    def document(self) -> dict[str, Any]:
+        """As plain values, to be kept as JSON; NaN is None."""
+        return {field.name: _kept(getattr(self, field.name)) for field in fields(self)}
+
+    @staticmethod
+    def of_document(document: dict[str, Any]) -> MachineRow:
+        """What `document` gave."""
+        known = {field.name: document[field.name] for field in fields(MachineRow) if field.name in document}
+        known |= {name: nan if known[name] is None else known[name] for name in ("change", "mean")}
+        low, high = (nan if end is None else end for end in known["change_interval"])
+        strip = tuple((name, state, nan if ratio is None else ratio) for name, state, ratio in known["strip"])
+        return MachineRow(
+            **{**known, "change_interval": (low, high), "points_to": tuple(known["points_to"]), "strip": strip}
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -114,3 +139,116 @@ class FleetState(Result):
     machines: tuple[MachineRow, ...]
     counts: dict[str, int]
     instruments: tuple[InstrumentMove, ...] = ()
+
+
+def machine_state(machine: str, verdicts: Iterable[ChangeVerdict]) -> MachineState:
+    """A machine from the verdicts of its series; when a test is due, and what became of an alarm, they say themselves."""
+    ordered = tuple(sorted(verdicts, key=lambda one: (_rank(one.state), one.since or 0.0, one.series.name)))
+    late = {one.series.name: one.due.overdue for one in ordered if one.due is not None and one.due.is_late}
+    states = [*(one.state for one in ordered), *([OVERDUE] if late else [])]
+    opened = [one.alarm for one in ordered if one.alarm is not None]
+    return MachineState(
+        machine=machine,
+        series=ordered,
+        state=min(states, key=_rank, default=NO_BASELINE),
+        overdue=late,
+        open_alarms=len(opened),
+        held_by=next((alarm.held_by for alarm in opened if alarm.held_by), ""),
+    )
+
+
+def machine_row(verdict: ChangeVerdict, machine: str = "", place: str = "") -> MachineRow:
+    """One series of a machine in a row: what the page of a fleet shows of it, and no more."""
+    shown = _shown(verdict)
+    judged = [step.date for step in verdict.steps]
+    measured = verdict.series.date[~verdict.series.aside]
+    due = verdict.due
+    return MachineRow(
+        machine=machine or verdict.series.machine or verdict.series.name,
+        place=place,
+        series=verdict.series.name,
+        state=verdict.state,
+        since=verdict.since,
+        indicator=shown.name if shown else "",
+        kind=shown.kind.name if shown else "",
+        unit=shown.kind.unit if shown else "",
+        change=shown.change if shown else nan,
+        mean=shown.mean if shown else nan,
+        change_interval=shown.change_interval if shown else (nan, nan),
+        changed_at=verdict.change_point.date if verdict.change_point else None,
+        points_to=tuple(cause.component for cause in verdict.causes),
+        strip=tuple((one.name, one.state, _ratio(one)) for one in verdict.indicators),
+        last_test=max([*judged, *map(float, measured[-1:])], default=None),
+        due=due.at if due else None,
+        overdue=due.overdue if due else 0.0,
+        held_by=verdict.alarm.held_by if verdict.alarm else "",
+        simulated=verdict.series.simulated,
+        grace=due.grace if due else 0.0,
+        open_alarms=int(verdict.alarm is not None),
+    )
+
+
+def fleet_state(rows: Iterable[MachineRow], now: float, instruments: Sequence[InstrumentMove] = ()) -> FleetState:
+    """All machines, from a row of each of their series.
+
+    Parameters
+    ----------
+    rows : iterable of MachineRow
+        Made when each series was judged; what has become overdue since then is seen here.
+    now : float [d]
+    instruments : sequence of InstrumentMove
+    """
+    worst: dict[str, MachineRow] = {}
+    late: set[str] = set()
+    for row in rows:
+        current = _at(row, now)
+        late |= {row.machine} if current.overdue > 0 else set()
+        known = worst.get(row.machine)
+        if known is None or _order(current) < _order(known):
+            current = replace(current, open_alarms=current.open_alarms + (known.open_alarms if known else 0))
+            worst[row.machine] = current
+        else:
+            worst[row.machine] = replace(known, open_alarms=known.open_alarms + current.open_alarms)
+    machines = tuple(sorted(worst.values(), key=_order))
+    counts = {state: sum(row.state == state for row in machines) for state in MACHINE_STATES}
+    counts[OVERDUE] = len(late)
+    return FleetState(now, machines, counts, tuple(instruments))
+
+
+def _at(row: MachineRow, now: float) -> MachineRow:
+    """The row as it stands now: overdue is a matter of the date."""
+    overdue = 0.0 if row.due is None else max(0.0, now - row.due - row.grace)
+    state = row.state if not overdue else min(row.state, OVERDUE, key=_rank)
+    since = row.due if state == OVERDUE != row.state else row.since
+    return replace(row, overdue=overdue, state=state, since=since)
+
+
+def _order(row: MachineRow) -> tuple[int, float, str]:
+    """The worst first; of one state the longest in it first."""
+    return _rank(row.state), row.since if row.since is not None else np.inf, row.machine
+
+
+def _rank(state: str) -> int:
+    return MACHINE_STATES.index(state)
+
+
+def _shown(verdict: ChangeVerdict) -> IndicatorState | None:
+    """The indicator that changed most: of an alarm, of a suspect test, or one that drifts."""
+    states = [state for state in (ALARM, SUSPECT) if any(one.state == state for one in verdict.indicators)]
+    chosen = [one for one in verdict.indicators if (one.state in states[:1]) or (not states and one.drift is not None)]
+    return max(chosen, key=_ratio, default=None)
+
+
+def _ratio(one: IndicatorState) -> float:
+    """Greatest |T| over the limit, of the last test that determines it; NaN before the first."""
+    shown = np.flatnonzero(np.isfinite(one.single))
+    if not len(shown) or not one.limit > 0:
+        return nan
+    last = shown[-1]
+    return float(max(abs(one.single[last]), abs(one.running[last])) / one.limit)
+
+
+def _kept(value: Any) -> Any:
+    if isinstance(value, float):
+        return value if isfinite(value) else None
+    return [_kept(one) for one in value] if isinstance(value, tuple | list) else value
