@@ -35,6 +35,7 @@ GROUPS = {
         "plan", "write_tests", "map_compliance", "write_program", "read_program", "compensate", "compensate_path",
         "predict", "read_path", "read_cut", "read_design",
     ),
+    "Over the years": ("History",),
     "What comes back": ("Result", "Estimate", "MachineTest", "Campaign", "Machine"),
     "What may go wrong": ("ElastogeoError", "InputError", "UnsupportedError"),
 }  # fmt: skip
