@@ -15,15 +15,15 @@ from elastogeo.history.alarms.telling import is_live, news
 
 DAY = timedelta(days=1)
 MONDAY = datetime(2026, 3, 2, 8, tzinfo=UTC)
-QUIET = Found(False, {}, {}, 1, MONDAY)
+QUIET = Found(False, {}, {}, {}, 1, MONDAY)
 
 
 def alarming(test: int = 1, measured: datetime = MONDAY, **ratios: float) -> Found:
-    return Found(True, ratios, ratios, test, measured)
+    return Found(True, ratios, ratios, ratios, test, measured)
 
 
 def opened(**ratios: float) -> Step:
-    return Step(OPEN, {"over": ratios}, 1, MONDAY)
+    return Step(OPEN, {"over": ratios, "size": ratios}, 1, MONDAY)
 
 
 # which steps
@@ -54,6 +54,12 @@ def test_worse_is_counted_from_what_was_told_last_not_from_the_last_test() -> No
     assert [step.facts["over"]["x"] for step in steps] == [1.0, 1.5, 2.0]
 
 
+def test_a_change_that_only_grows_more_certain_is_not_worse() -> None:
+    """The running mean of a change that stays goes on growing; single tests say how large it is."""
+    certain = Found(True, {"x": 9.0}, {"x": 1.5}, {"x": 1.4}, 4, MONDAY)
+    assert steps_of(certain, [opened(x=1.4)]) == ()
+
+
 def test_a_further_indicator_joins_and_counts_from_its_own_limit() -> None:
     assert steps_of(alarming(x=5.0, y=1.4), [opened(x=5.0)]) == ()
     (step,) = steps_of(alarming(x=5.0, y=1.6), [opened(x=5.0)])
@@ -61,9 +67,9 @@ def test_a_further_indicator_joins_and_counts_from_its_own_limit() -> None:
 
 
 def test_one_badly_seated_ball_makes_no_alarm_worse() -> None:
-    blunder = Found(True, {"x": 6.0}, {"x": 1.4}, 2, MONDAY)
+    blunder = Found(True, {"x": 6.0}, {"x": 6.0}, {"x": 1.4}, 2, MONDAY)
     assert steps_of(blunder, [opened(x=1.4)]) == ()
-    answered = Found(True, {"x": 5.8}, {"x": 5.8}, 3, MONDAY)
+    answered = alarming(3, x=5.8)
     assert [step.state for step in steps_of(answered, [opened(x=1.4)])] == [WORSE]
 
 
@@ -137,7 +143,7 @@ def test_any_life_has_one_open_alarm_and_tells_each_change_once(acts: list[tuple
         current = alarms[-1] if alarms and is_open(alarms[-1]) else []
         if what == "test":
             over = ratio >= 1 or (found.alarming and bool(current))  # a state stays an alarm until it is closed
-            found = Found(over, {"x": ratio} if over else {}, {"x": ratio} if over else {}, len(sent), at)
+            found = alarming(len(sent), at, x=ratio) if over else Found(False, measured=at)
         if what in ("test", "again"):
             taken = steps_of(found, current, cleared)
             told = any(number == len(alarms) - 1 for number, _ in sent) if current else False
@@ -163,5 +169,7 @@ def test_any_life_has_one_open_alarm_and_tells_each_change_once(acts: list[tuple
         assert [step.state for step in steps].count(OPEN) == 1
         assert steps[0].state == OPEN
         assert all(step.state not in CLOSED for step in steps[:-1]), "nothing follows a close"
-        most = [recorded(steps[: k + 1]).get("x", 0.0) for k, step in enumerate(steps) if step.state in (OPEN, WORSE)]
+        most = [
+            recorded(steps[: k + 1], "size").get("x", 0.0) for k, step in enumerate(steps) if step.state in (OPEN, WORSE)
+        ]
         assert all(later >= max(earlier, 1.0) + WORSE_BY for earlier, later in pairwise(most))

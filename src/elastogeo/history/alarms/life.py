@@ -26,7 +26,7 @@ class Step:
     state : str
         `OPEN`, `WORSE`, `HELD`, `RELEASED`, `ACKNOWLEDGED`, `REPAIRED` or `FALSE`.
     facts : mapping
-        `over`: by indicator, how many limits it was away, at this step.
+        `over` and `size`: by indicator, how many limits it was away at this step, as in `Found`.
     test : int or None
         Key of the test that caused it; None for a person's step.
     at : datetime or None
@@ -52,9 +52,11 @@ class Found:
     alarming : bool
         Whether its state is an alarm: confirmed, or not confirmed within the wait.
     over : mapping of str to float
-        By indicator that is part of the alarm, how many limits it is away at the last test.
+        By indicator that is part of the alarm, how many limits it is away at the last test, in either chart.
+    size : mapping of str to float
+        The same in the chart of single tests: the running mean of a change that stays grows more certain, not larger.
     sure : mapping of str to float
-        The same, without what one test alone says: the last test or the one before, whichever is nearer to the baseline;
+        As `size`, without what one test alone says: the last test or the one before, whichever is nearer to the baseline;
         once the wait for a repeat is over, the last test.
     test : int or None
         Key of the last judged test.
@@ -66,6 +68,7 @@ class Found:
 
     alarming: bool
     over: Mapping[str, float] = field(default_factory=dict)
+    size: Mapping[str, float] = field(default_factory=dict)
     sure: Mapping[str, float] = field(default_factory=dict)
     test: int | None = None
     measured: datetime | None = None
@@ -94,11 +97,11 @@ def is_acknowledged(steps: Sequence[Step]) -> bool:
     return is_open(steps) and told[-1:] == [ACKNOWLEDGED]
 
 
-def recorded(steps: Iterable[Step]) -> dict[str, float]:
-    """The most that the steps say of each indicator, in limits."""
+def recorded(steps: Iterable[Step], what: str = "over") -> dict[str, float]:
+    """The most that the steps say of each indicator, in limits; `what`: `over` or `size`."""
     most: dict[str, float] = {}
     for step in steps:
-        for name, ratio in step.facts.get("over", {}).items():
+        for name, ratio in step.facts.get(what, {}).items():
             most[name] = max(most.get(name, 0.0), float(ratio))
     return most
 
@@ -122,12 +125,11 @@ def steps_of(found: Found, alarm: Sequence[Step] = (), cleared: datetime | None 
     """
     if not found.alarming:
         return ()
+    facts = {"over": dict(found.over), "size": dict(found.size), "confirmed": found.confirmed}
     if not is_open(alarm):
         if cleared is not None and (found.measured is None or found.measured <= cleared):
             return ()
-        return (Step(OPEN, {"over": dict(found.over), "confirmed": found.confirmed}, found.test),)
-    before = recorded(alarm)
+        return (Step(OPEN, facts, found.test),)
+    before = recorded(alarm, "size")
     grown = sorted(name for name, ratio in found.sure.items() if ratio >= max(before.get(name, 1.0), 1.0) + WORSE_BY)
-    if not grown:
-        return ()
-    return (Step(WORSE, {"over": dict(found.over), "confirmed": found.confirmed, "grown": grown}, found.test),)
+    return (Step(WORSE, facts | {"grown": grown}, found.test),) if grown else ()
