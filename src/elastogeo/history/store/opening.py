@@ -12,6 +12,7 @@ from types import TracebackType
 from sqlalchemy import Connection, Engine, text
 
 from elastogeo.errors import StoreError
+from elastogeo.history.extra import needs_history_extra
 from elastogeo.history.store import audit
 from elastogeo.history.store.files import Files
 from elastogeo.history.store.migrations import check_revision, upgrade
@@ -68,7 +69,11 @@ def open_store(url: str | Path, create: bool = False, *, files: str | Path | Non
     StoreError
         If it is not there, lies on a network drive, cannot be reached, or has another schema.
     """
-    place = place_of(url, files)
+    with needs_history_extra():
+        return _opened(place_of(url, files), create, who)
+
+
+def _opened(place: Place, create: bool, who: str) -> Store:
     engine = _engine(place, create)
     store = Store(engine, Files(place.files), place.url)
     weakref.finalize(store, engine.dispose)
