@@ -7,6 +7,7 @@ library of `pysqlite3`; and PostgreSQL, a server that the session starts, with a
 from __future__ import annotations
 
 import shutil
+import signal
 import sqlite3
 import sys
 import tempfile
@@ -56,7 +57,11 @@ class Server:
         self._admin.execute(f"DROP DATABASE {name} WITH (FORCE)")
 
     def stop(self) -> None:
+        """At once: what it holds is thrown away."""
         self._admin.close()
+        server = self._server.get_postmaster_info().process
+        server.send_signal(signal.SIGQUIT)
+        server.wait(30)
         self._server.cleanup()
         shutil.rmtree(self._folder, ignore_errors=True)
 

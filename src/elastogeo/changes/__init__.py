@@ -25,6 +25,10 @@ from elastogeo.changes.instruments import InstrumentMove, instrument_moves
 from elastogeo.changes.kinds import KINDS, Kind
 from elastogeo.changes.priors import Prior, default_prior, fleet_prior
 from elastogeo.changes.records import (
+    TRAIL_WHOLE,
+    AuditFault,
+    AuditRow,
+    AuditTrail,
     Differing,
     KeptCampaign,
     KeptPlan,
@@ -32,6 +36,7 @@ from elastogeo.changes.records import (
     Recomputed,
     RecomputedTest,
     recomputed_same,
+    trail_whole,
 )
 from elastogeo.changes.references import Reference, reference_from, reference_of
 from elastogeo.changes.result import (
@@ -71,7 +76,11 @@ __all__ = [
     "STEADY",
     "STEP",
     "SUSPECT",
+    "TRAIL_WHOLE",
     "WATCH",
+    "AuditFault",
+    "AuditRow",
+    "AuditTrail",
     "Baseline",
     "Cause",
     "ChangePoint",
@@ -123,6 +132,7 @@ __all__ = [
     "signatures_of",
     "start",
     "step",
+    "trail_whole",
 ]
 
 __getattr__ = first_use(__name__, {"indicators": "indicators_of signatures_of"})

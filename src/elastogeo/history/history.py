@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
+from elastogeo.changes import AuditTrail
 from elastogeo.errors import ElastogeoError, StoreError
 from elastogeo.history.intake.folders import in_order, tests_in
 from elastogeo.history.intake.imports import Imported, import_test
@@ -78,6 +79,12 @@ class History:
     def add_machine(self, name: str, *, kind: str = "", serial: str = "", place: str = "") -> KnownMachine:
         """Add a machine, or say more of one that is there."""
         return add_machine(self.store, name, who=self.who, kind=kind, serial=serial, place=place)
+
+    def audit(self, last: int = 20, subject: str = "", who: str = "") -> AuditTrail:
+        """The audit trail: its last rows (of a subject, of a person), and whether all of it is as it was written."""
+        from elastogeo.history.store.trail import audit_trail
+
+        return audit_trail(self.store, last, subject, who)
 
     def machines(self) -> tuple[KnownMachine, ...]:
         """All machines, by name."""

@@ -8,6 +8,7 @@ from elastogeo.history.extra import needs_history_extra
 if TYPE_CHECKING:
     from elastogeo.history.store.clock import now
     from elastogeo.history.store.files import Files
+    from elastogeo.history.store.making import Made, make_store
     from elastogeo.history.store.opening import Store, open_store, read, write
 
 _found = first_use(
@@ -15,11 +16,12 @@ _found = first_use(
     {
         "clock": "now",
         "files": "Files",
+        "making": "Made make_store",
         "opening": "Store open_store read write",
     },
 )
 
-__all__ = ["Files", "Store", "now", "open_store", "read", "write"]
+__all__ = ["Files", "Made", "Store", "make_store", "now", "open_store", "read", "write"]
 
 
 def __getattr__(name: str) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
 
@@ -32,11 +32,14 @@ class Store:
     files : Files
     url : str
         As it is shown: without a password.
+    found : str or None
+        The schema that it had when it was opened; None if it was made then.
     """
 
     engine: Engine
     files: Files
     url: str
+    found: str | None
 
     def close(self) -> None:
         """Let go of the database; it opens again by itself when it is used."""
@@ -75,16 +78,18 @@ def open_store(url: str | Path, create: bool = False, *, files: str | Path | Non
 
 def _opened(place: Place, create: bool, who: str) -> Store:
     engine = _engine(place, create)
-    store = Store(engine, Files(place.files), place.url)
-    weakref.finalize(store, engine.dispose)
+    files = Files(place.files)
+    opening = Store(engine, files, place.url, None)
     if create:
-        store.files.make()
-        with _writing(store, migrates=True) as connection:
-            upgrade(connection, place.url, who or audit.login())
+        files.make()
+        with _writing(opening, migrates=True) as connection:
+            found = upgrade(connection, place.url, who or audit.login())
     else:
-        with read(store) as connection:
-            check_revision(connection, place.url)
-    store.files.sweep()
+        with read(opening) as connection:
+            found = check_revision(connection, place.url)
+    files.sweep()
+    store = replace(opening, found=found)
+    weakref.finalize(store, engine.dispose)
     return store
 
 

@@ -31,8 +31,8 @@ def revision(connection: Connection) -> str | None:
     return found
 
 
-def check_revision(connection: Connection, url: str) -> None:
-    """Refuse a database that is no history, or whose schema is not of this version.
+def check_revision(connection: Connection, url: str) -> str:
+    """The schema of a history; one that is not of this version is refused, and so is a database that is no history.
 
     Raises
     ------
@@ -48,10 +48,11 @@ def check_revision(connection: Connection, url: str) -> None:
             f"{url}: was made by an older elastogeo (schema {found}, this one needs {REVISIONS[-1]}); back it up, "
             f"then migrate it with: elastogeo history init {url}"
         )
+    return found
 
 
-def upgrade(connection: Connection, url: str, who: str) -> None:
-    """Make the tables, or bring them to the schema of this version; in the caller's transaction.
+def upgrade(connection: Connection, url: str, who: str) -> str | None:
+    """Make the tables, or bring them to the schema of this version; in the caller's transaction. The schema that was found.
 
     Raises
     ------
@@ -68,9 +69,10 @@ def upgrade(connection: Connection, url: str, who: str) -> None:
     else:
         _refuse_newer(found, url)
     if found == REVISIONS[-1]:
-        return
+        return found
     _run(connection)
     audit.record(connection, who, "migrate", "schema", old=found, new=REVISIONS[-1], why=f"elastogeo {VERSION}")
+    return found
 
 
 def _refuse_newer(found: str, url: str) -> None:
