@@ -5,7 +5,7 @@ from __future__ import annotations
 import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
@@ -79,18 +79,27 @@ def open_store(url: str | Path, create: bool = False, *, files: str | Path | Non
 def _opened(place: Place, create: bool, who: str) -> Store:
     engine = _engine(place, create)
     files = Files(place.files)
-    opening = Store(engine, files, place.url, None)
-    if create:
-        files.make()
-        with _writing(opening, migrates=True) as connection:
-            found = upgrade(connection, place.url, who or audit.login())
-    else:
-        with read(opening) as connection:
-            found = check_revision(connection, place.url)
-    files.sweep()
-    store = replace(opening, found=found)
+    try:
+        found = _prepared(Store(engine, files, place.url, None), create, who or audit.login())
+    except BaseException:
+        engine.dispose()
+        raise
+    store = Store(engine, files, place.url, found)
     weakref.finalize(store, engine.dispose)
     return store
+
+
+def _prepared(store: Store, create: bool, who: str) -> str | None:
+    """The schema that a history had, which has that of this version now."""
+    if create:
+        store.files.make()
+        with _writing(store, migrates=True) as connection:
+            found = upgrade(connection, store.url, who)
+    else:
+        with read(store) as connection:
+            found = check_revision(connection, store.url)
+    store.files.sweep()
+    return found
 
 
 @contextmanager
