@@ -1,8 +1,8 @@
-"""Since when: the change point, by the likelihood of one step in the mean after the baseline. It never says whether."""
+"""Since when: the change point, by the likelihood of one change after the baseline. It never says whether."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -83,24 +83,26 @@ def since_baseline(series: Series, baseline: Baseline, reference: Reference, sta
     )
 
 
-def change_point_of(since: Since, chosen: Flags, latest: int) -> ChangePoint | None:
-    """Where the mean of the chosen indicators stepped, together.
+def change_point_of(since: Since, weights: Iterable[Array], latest: int) -> ChangePoint | None:
+    """Since when indicators changed, together.
 
     Parameters
     ----------
     since : Since
-    chosen : array of bool, shape (q,)
+    weights : iterable of array, shape (n,)
+        Of each of these indicators, `weights_of_step`, or `weights_of_ramp` where it drifts.
     latest : int
         The latest test that may be the first changed one: that of the alarm.
 
     Returns
     -------
     ChangePoint or None
-        None if no test stands, or none is chosen.
+        None if no test stands, or there is no indicator.
     """
-    if not len(since.tests) or not chosen.any() or latest < 0:
+    every = list(weights)
+    if not len(since.tests) or not every or latest < 0:
         return None
-    weight = sum((_of_step(*one) for one in _chosen(since, chosen)), np.zeros(len(since.tests)))[: latest + 1]
+    weight = np.sum(every, axis=0)[: latest + 1]
     share = np.exp(weight - weight.max())
     share /= share.sum()
     order = np.argsort(-share, kind="stable")
@@ -116,11 +118,24 @@ def change_point_of(since: Since, chosen: Flags, latest: int) -> ChangePoint | N
     )
 
 
-def _chosen(since: Since, chosen: Flags) -> Iterator[tuple[Array, float, float, float]]:
-    """Of each chosen indicator its departures, tests of the baseline, deviation and degrees of freedom."""
+def weights_of_step(since: Since, c: int) -> Array:
+    """Log of the probability that the mean of an indicator stepped at each of n tests, up to a constant, shape (n,).
+
+    The means before and after are unknown, the scatter is that of the reference with its degrees of freedom.
+    """
     known = since.reference
-    for c in np.flatnonzero(chosen):
-        yield since.departure[:, c], float(known.count[c]), float(known.deviation[c]), float(known.degrees_of_freedom[c])
+    departure, count = since.departure[:, c], float(known.count[c])
+    left, n_after = squares_of_step(departure, count)
+    before = count + float(np.sum(np.isfinite(departure))) - n_after
+    unknown = (np.log(np.maximum(n_after, 1)) + np.log(before)) / 2
+    return np.where(n_after > 0, likelihood(since, c, left) - unknown, -np.inf)
+
+
+def likelihood(since: Since, c: int, left: Array) -> Array:
+    """Log-likelihood of sums of squares that are left of an indicator, up to a constant: Student's, as the scatter is."""
+    freedom, deviation = float(since.reference.degrees_of_freedom[c]), float(since.reference.deviation[c])
+    number = float(np.sum(np.isfinite(since.departure[:, c])))
+    return np.asarray(-(freedom + number) / 2 * np.log1p(left / (freedom * deviation**2)))
 
 
 def squares_of_step(departure: Array, count: float) -> tuple[Array, Array]:
@@ -139,12 +154,3 @@ def squares_of_step(departure: Array, count: float) -> tuple[Array, Array]:
     n_after, sum_after = number[-1] - number[:-1], total[-1] - total[:-1]
     left = square[-1] - total[:-1] ** 2 / (count + number[:-1])
     return left - np.divide(sum_after**2, n_after, out=np.zeros_like(left), where=n_after > 0), n_after
-
-
-def _of_step(departure: Array, count: float, deviation: float, freedom: float) -> Array:
-    """Log of the probability that each test is the first changed one, means before and after unknown, up to a constant."""
-    left, n_after = squares_of_step(departure, count)
-    number = float(np.sum(np.isfinite(departure)))
-    scale = -(freedom + number) / 2 * np.log1p(left / (freedom * deviation**2))
-    before = count + number - n_after
-    return np.where(n_after > 0, scale - (np.log(np.maximum(n_after, 1)) + np.log(before)) / 2, -np.inf)

@@ -8,7 +8,7 @@ from math import inf, isfinite, nan, sqrt
 import numpy as np
 from scipy.special import stdtrit
 
-from elastogeo.changes.change_points import COVERAGE, Since, squares_of_step
+from elastogeo.changes.change_points import COVERAGE, Since, likelihood, squares_of_step
 from elastogeo.machine import Array
 from elastogeo.result import Part
 
@@ -124,8 +124,8 @@ def line_of(date: Array, departure: Array, deviation: float, freedom: float) -> 
     )
 
 
-def shape_of(since: Since, c: int, latest: int) -> tuple[str, int]:
-    """Whether a step or a drift explains a change better, and the first test of it.
+def shape_of(since: Since, c: int, latest: int) -> str:
+    """Whether a step or a drift explains the change of an indicator better; empty if the tests cannot say.
 
     Parameters
     ----------
@@ -134,42 +134,33 @@ def shape_of(since: Since, c: int, latest: int) -> tuple[str, int]:
         Of the indicator.
     latest : int
         The latest test that may be the first changed one.
-
-    Returns
-    -------
-    shape : str
-        `STEP` or `DRIFT`; empty if the tests cannot say.
-    first : int
-        The first changed test by the better one.
     """
-    departure, known = since.departure[:, c], since.reference
-    count, deviation, freedom = (float(one[c]) for one in (known.count, known.deviation, known.degrees_of_freedom))
-    stepped = squares_of_step(departure, count)[0][: latest + 1]
-    drifted = _squares_of_ramp(since, departure, count)[: latest + 1]
-    number = float(np.sum(np.isfinite(departure)))
-
-    def likelihood(left: float) -> float:
-        return float(-(freedom + number) / 2 * np.log1p(left / (freedom * deviation**2)))
-
-    better = likelihood(float(drifted.min())) - likelihood(float(stepped.min()))
-    shape = DRIFT if better > SURE else STEP if better < -SURE else ""
-    return shape, int(drifted.argmin() if shape == DRIFT else stepped.argmin())
+    stepped = squares_of_step(since.departure[:, c], float(since.reference.count[c]))[0]
+    drifted = _squares_of_ramp(since, c)[0]
+    better = float(np.ptp(likelihood(since, c, np.array([one[: latest + 1].min() for one in (stepped, drifted)]))))
+    if better <= SURE:
+        return ""
+    return DRIFT if drifted[: latest + 1].min() < stepped[: latest + 1].min() else STEP
 
 
-def _squares_of_ramp(since: Since, departure: Array, count: float) -> Array:
-    """Of a slope that begins after the test before each of n tests: the sum of squares that it leaves."""
+def weights_of_ramp(since: Since, c: int) -> Array:
+    """Log of the probability that a drift began after the test before each of n tests, up to a constant, shape (n,)."""
+    left, spread = _squares_of_ramp(since, c)
+    return np.where(spread > 0, likelihood(since, c, left) - np.log(np.maximum(spread, 1e-300)) / 2, -np.inf)
+
+
+def _squares_of_ramp(since: Since, c: int) -> tuple[Array, Array]:
+    """Of a slope that begins after the test before each of n tests: the squares that it leaves, and those of its dates."""
+    departure, count = since.departure[:, c], float(since.reference.count[c])
     shown = np.isfinite(departure)
     d = np.where(shown, departure, 0.0)
-    left = np.empty(len(d))
-    for k in range(len(d)):
-        run = np.where(shown, np.maximum(since.date - since.last_before(k), 0.0), 0.0)
-        n, s1, s2 = count + float(np.sum(shown)), float(run.sum()), float(run @ run)
-        y1, y2 = float(d.sum()), float(run @ d)
-        left[k] = d @ d - y1**2 / n
-        spread = s2 - s1**2 / n
-        if spread > 0:
-            left[k] -= (y2 - s1 * y1 / n) ** 2 / spread
-    return left
+    begins = np.array([since.last_before(k) for k in range(len(d))])
+    run = np.where(shown, np.maximum(since.date - begins[:, np.newaxis], 0.0), 0.0)
+    n, total = count + float(np.sum(shown)), float(d.sum())
+    spread = np.sum(run**2, axis=1) - np.sum(run, axis=1) ** 2 / n
+    along = run @ d - np.sum(run, axis=1) * total / n
+    gain = np.divide(along**2, spread, out=np.zeros_like(spread), where=spread > 0)
+    return float(d @ d) - total**2 / n - gain, spread
 
 
 def drift_of(line: Line, mean: float, mean_deviation: float, relevance: float, lower: float, upper: float) -> Drift:

@@ -9,10 +9,10 @@ from math import hypot, inf, nan, sqrt
 import numpy as np
 
 from elastogeo.changes.causes import Cause, causes_of
-from elastogeo.changes.change_points import ChangePoint, Since, change_point_of, since_baseline
+from elastogeo.changes.change_points import ChangePoint, Since, change_point_of, since_baseline, weights_of_step
 from elastogeo.changes.charts import start
 from elastogeo.changes.checks import checks_of
-from elastogeo.changes.drifts import DRIFT, YEAR, Drift, Line, drift_of, line_of, shape_of
+from elastogeo.changes.drifts import DRIFT, STEP, YEAR, Drift, Line, drift_of, line_of, shape_of, weights_of_ramp
 from elastogeo.changes.priors import Prior
 from elastogeo.changes.references import Reference, reference_of
 from elastogeo.changes.replay import Replay, replay
@@ -65,7 +65,8 @@ def judge(
         for k, name in enumerate(series.indicators)
     )
     waiting = series.tests[found.asked] if found.state == SUSPECT else ""
-    point = change_point_of(since, found.alarm != 0, _latest(found, found.alarm != 0))
+    together = [_weights(since, k, one.shape) for k, one in enumerate(indicators) if one.state == ALARM]
+    point = change_point_of(since, together, _latest(found, found.alarm != 0))
     causes, cannot_tell = ((), ()) if point is None else _causes(series, since, found, point)
     return ChangeVerdict(
         series=series,
@@ -213,24 +214,27 @@ def _by_running_mean(reference: Reference, found: Replay, k: int) -> tuple[float
 
 def _changed(plain: IndicatorState, since: Since, found: Replay, k: int) -> IndicatorState:
     """An indicator in alarm: since when, by how much, step or drift, how fast."""
-    chosen = np.arange(len(found.alarm)) == k
-    latest = _latest(found, chosen)
-    point = change_point_of(since, chosen, latest)
+    latest = _latest(found, np.arange(len(found.alarm)) == k)
+    shape = shape_of(since, k, latest) if latest >= 0 else ""
+    point = change_point_of(since, [_weights(since, k, shape)], latest)
     if point is None:
         return plain
-    shape, first = shape_of(since, k, latest)
-    line = line_of(since.date[first:], since.departure[first:, k], plain.deviation, plain.degrees_of_freedom)
-    sloping = line is not None and abs(line.t) > line.factor
-    drift = _drift(plain, line, since, k) if line is not None and sloping else None
-    after = since.departure[since.tests.index(point.test) :, k]
-    after = after[np.isfinite(after)]
-    change, own = float(after.mean()), plain.deviation / sqrt(len(after))
-    if shape == DRIFT and drift is not None and line is not None:
+    first = since.tests.index(point.test)
+    date, departure = since.date[first:], since.departure[first:, k]
+    line = line_of(date, departure, plain.deviation, plain.degrees_of_freedom)
+    drift = _drift(plain, line, since, k) if line is not None and abs(line.t) > line.factor else None
+    number = int(np.sum(np.isfinite(departure)))
+    change, own = float(np.nanmean(departure)), plain.deviation / sqrt(number)
+    if line is not None and drift is not None and shape != STEP:
         change, own = line.at(line.last)
     half = float(coverage_factor(np.array([plain.degrees_of_freedom]))[0]) * hypot(own, _of_mean(plain, since, k))
     return replace(
         plain, change=change, change_interval=(change - half, change + half), change_point=point, drift=drift, shape=shape
     )
+
+
+def _weights(since: Since, k: int, shape: str) -> Array:
+    return weights_of_ramp(since, k) if shape == DRIFT else weights_of_step(since, k)
 
 
 def _drifting(plain: IndicatorState, since: Since, k: int) -> IndicatorState:
