@@ -41,6 +41,7 @@ Robust = Annotated[bool, typer.Option("--robust", help="Let outlying readings co
 
 STORE = "history.db"
 """Where the history is if nothing else is said: a file in the folder that one is in."""
+OfSeries = Annotated[str, typer.Option("--series", help="Which series of the machine: its name, or a part of it.")]
 Who = Annotated[
     str, typer.Option("--who", envvar="ELASTOGEO_WHO", help="Who does this, for the audit trail; else who is logged in.")
 ]

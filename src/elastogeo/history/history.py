@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
-from elastogeo.changes import AuditTrail
+from elastogeo.changes import AuditTrail, Kind, Tolerance
 from elastogeo.errors import ElastogeoError, StoreError
+from elastogeo.history.intake.days import ends_of_day
 from elastogeo.history.intake.folders import in_order, tests_in
 from elastogeo.history.intake.imports import Imported, import_test
 from elastogeo.history.intake.machines import KnownMachine, add_machine, machines
-from elastogeo.history.store import Store, audit, open_store, read
+from elastogeo.history.names import KnownSeries, series_named, series_of_machine
+from elastogeo.history.requirements.baselines import Chosen, choose, set_baseline
+from elastogeo.history.requirements.intervals import set_interval
+from elastogeo.history.requirements.tolerances import kind_of, set_tolerance
+from elastogeo.history.store import Store, audit, now, open_store, read
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,3 +138,75 @@ class History:
                 raise
             except ElastogeoError as error:
                 yield Added(test, None, str(error))
+
+    def series(self, machine: str) -> tuple[KnownSeries, ...]:
+        """The series of a machine, by name or serial number: its tests by one recipe each."""
+        with read(self.store) as connection:
+            return series_of_machine(connection, machine)
+
+    def set_baseline(
+        self,
+        machine: str,
+        series: str = "",
+        *,
+        why: str,
+        tests: Sequence[int] = (),
+        first: int | None = None,
+        last: int | None = None,
+        begin: str = "",
+        end: str = "",
+    ) -> Chosen:
+        """Set the tests that count as the ordinary state of a machine: by their numbers, or so many between two dates.
+
+        Raises
+        ------
+        InputError
+            If there are too few, one is set aside, or no reason is given.
+        """
+        at = now()
+        days = (ends_of_day(begin, "begin", at)[0] if begin else None, ends_of_day(end, "end", at)[1] if end else None)
+        with read(self.store) as connection:
+            key = series_named(connection, machine, series).key
+            chosen = tests or choose(connection, key, first, last, *days)
+        return set_baseline(self.store, key, chosen, who=self.who, why=why)
+
+    def kind(self, machine: str, indicator: str, series: str = "") -> Kind:
+        """The kind of an indicator of a series: its unit, and from when on a change of it matters."""
+        with read(self.store) as connection:
+            return kind_of(connection, series_named(connection, machine, series).key, indicator)
+
+    def set_tolerance(
+        self,
+        machine: str,
+        indicator: str,
+        series: str = "",
+        *,
+        why: str,
+        lower: float | None = None,
+        upper: float | None = None,
+        relevance: float | None = None,
+    ) -> None:
+        """Set between which values an indicator must stay, and from when on a change matters; without any, take it back.
+
+        Parameters
+        ----------
+        machine, indicator, series, why : str
+        lower, upper : float, optional
+            In the unit of its kind.
+        relevance : float, optional
+            In the unit of its kind; a share of the mean where the kind is relative.
+
+        Raises
+        ------
+        InputError
+            If there is no such indicator, nothing keeps the tolerance, or no reason is given.
+        """
+        with read(self.store) as connection:
+            key = series_named(connection, machine, series).key
+        set_tolerance(self.store, key, indicator, Tolerance(lower, upper, relevance), who=self.who, why=why)
+
+    def set_interval(self, machine: str, days: float | None, series: str = "", *, grace: float = 7.0, why: str = "") -> None:
+        """Set how often a series is tested; None: no date."""
+        with read(self.store) as connection:
+            key = series_named(connection, machine, series).key
+        set_interval(self.store, key, days, grace, who=self.who, why=why)

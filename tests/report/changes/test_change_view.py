@@ -178,7 +178,8 @@ def test_a_limit_that_is_passed_is_not_foretold():
         ("straightness X", "straightness", 1.0, "is 5 % less straight along X"),
         ("backlash Y", "backlash", 1.0, "has 5 % more backlash in Y"),
         ("circular deviation", "circular deviation", 1.0, "has 5 % more circular deviation"),
-        ("systematic deviation X", "positioning", -1.0, "has 5 % less systematic deviation X"),
+        ("systematic deviation X", "positioning", -1.0, "has 5 % less systematic deviation in X"),
+        ("friction X", "friction, A", 1.0, "has 5 % more friction in X"),
     ],
 )
 def test_a_change_is_said_in_the_words_of_its_kind(name, kind, change, said):

@@ -65,6 +65,19 @@ def day_of(text: str, where: str, now: datetime) -> Day:
     return found
 
 
+def ends_of_day(text: str, where: str, now: datetime) -> tuple[datetime, datetime]:
+    """When what a date says begins and ends: a whole day, or a moment.
+
+    Raises
+    ------
+    InputError
+        If it is no date.
+    """
+    day = day_of(text, where, now)
+    half = timedelta(hours=12) if day.whole else timedelta()
+    return day.at - half, day.at + half
+
+
 def _read(text: str, where: str) -> Day:
     try:
         if len(text) <= len("2026-03-01"):

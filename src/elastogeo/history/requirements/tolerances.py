@@ -6,7 +6,7 @@ from math import isfinite
 
 from sqlalchemy import Connection, insert, select
 
-from elastogeo.changes import Tolerance
+from elastogeo.changes import KINDS, Kind, Tolerance
 from elastogeo.errors import InputError, several
 from elastogeo.history.store import Store, audit, now, write
 from elastogeo.history.store.schema import analysis, indicator, test, tolerance
@@ -36,10 +36,7 @@ def set_tolerance(store: Store, key: int, name: str, wanted: Tolerance, *, who: 
     _check(name, wanted)
     row = {"lower": wanted.lower, "upper": wanted.upper, "relevance": wanted.relevance}
     with write(store) as connection:
-        known = indicators(connection, key)
-        if name not in known:
-            there = several(known) if known else "none yet"
-            raise InputError(f"the series has no indicator {name!r}; it has: {there}")
+        kind_of(connection, key, name)
         old = tolerance_of(connection, key, name)
         if old == wanted:
             return wanted
@@ -63,17 +60,32 @@ def tolerance_of(connection: Connection, key: int, name: str) -> Tolerance:
     return Tolerance() if row is None else Tolerance(row.lower, row.upper, row.relevance)
 
 
-def indicators(connection: Connection, key: int) -> tuple[str, ...]:
-    """The names of what the tests of a series determine."""
-    found = connection.scalars(
-        select(indicator.c.name)
+def kind_of(connection: Connection, key: int, name: str) -> Kind:
+    """The kind of an indicator that tests of a series determine.
+
+    Raises
+    ------
+    InputError
+        If none does; the message names those that are determined.
+    """
+    known = indicators(connection, key)
+    if name not in known:
+        there = several(tuple(known)) if known else "none yet"
+        raise InputError(f"the series has no indicator {name!r}; it has: {there}")
+    return KINDS[known[name]]
+
+
+def indicators(connection: Connection, key: int) -> dict[str, str]:
+    """The kinds of what the tests of a series determine, by name."""
+    found = connection.execute(
+        select(indicator.c.name, indicator.c.kind)
         .join(analysis, analysis.c.id == indicator.c.analysis)
         .join(test, test.c.id == analysis.c.test)
         .where(test.c.series == key)
         .distinct()
         .order_by(indicator.c.name)
     )
-    return tuple(found)
+    return {row.name: row.kind for row in found}
 
 
 def _check(name: str, wanted: Tolerance) -> None:

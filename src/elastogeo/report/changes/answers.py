@@ -215,14 +215,12 @@ def _baseline_tests(verdict: ChangeVerdict) -> int:
 
 
 def _beside(verdict: ChangeVerdict) -> Iterator[str]:
-    """What else the alarm says: how sure, what changed too, how fast, what does not fit."""
+    """What else the alarm says: what changed too, how fast, what does not fit."""
     if verdict.alarm is not None and verdict.alarm.held_by:
         yield (
             f"The alarm is held back: other machines moved alike with instrument {verdict.alarm.held_by}, which may be what "
             f"changed."
         )
-    if verdict.state == ALARM and not any(step.confirmed for step in verdict.steps if step.state in (ALARM, SUSPECT)):
-        yield "No repeat confirmed it."
     others = [one.name for one in verdict.changed[1:]]
     if others:
         yield f"{title_of(listed(others))} changed too."

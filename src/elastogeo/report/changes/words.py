@@ -140,6 +140,9 @@ def changed(name: str, kind: str, change: float, size: str) -> str:
         return f"is {size} {'less' if up else 'more'} straight along {where}"
     if kind == "backlash" and where:
         return f"has {size} {_MORE[up]} backlash in {where}"
+    noun, _, axis = name.rpartition(" ")
+    if noun and len(axis) == 1 and axis.isupper():
+        return f"has {size} {_MORE[up]} {noun} in {axis}"
     return f"has {size} {_MORE[up]} {name}"
 
 
