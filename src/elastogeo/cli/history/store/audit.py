@@ -18,7 +18,7 @@ def audit(
     report: Report = None,
     as_json: AsJson = False,
 ) -> None:
-    """Show who did what, and check that the trail is as it was written.
+    """Show who did what, and check the trail.
 
     Note the seal of the last row somewhere else: it shows later that no row before it was written anew.
 
