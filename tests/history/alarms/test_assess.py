@@ -13,10 +13,10 @@ from sqlalchemy import insert, select
 
 from elastogeo.changes import ALARM, NO_BASELINE, OVERDUE, STEADY, SUSPECT
 from elastogeo.history.alarms.acts import acknowledge, close
-from elastogeo.history.alarms.assess import assess, assess_waiting
+from elastogeo.history.alarms.assessing import assess, assess_waiting
+from elastogeo.history.alarms.open_ones import standing
 from elastogeo.history.alarms.silences import silence_machine
-from elastogeo.history.alarms.standing import standing
-from elastogeo.history.alarms.states import fleet_state
+from elastogeo.history.alarms.states import fleet
 from elastogeo.history.store import Store, read, write
 from elastogeo.history.store.schema import series_state, set_aside
 from tests.history.alarms.shop import DAY, START, add_log, make_series, make_test, messages, set_baseline, steps
@@ -331,8 +331,8 @@ def test_the_fleet_is_the_worst_first_without_judging(machine: Machine) -> None:
     other.test()
     machine.clock.advance(days=10)
     with read(machine.store) as connection:
-        found = fleet_state(connection, machine.clock.time)
-        late = fleet_state(connection, machine.clock.time + 40 * DAY)
+        found = fleet(connection, machine.clock.time)
+        late = fleet(connection, machine.clock.time + 40 * DAY)
     assert [(row.machine, row.state) for row in found.machines] == [("C50 no. 3", ALARM), ("C50 no. 4", NO_BASELINE)]
     worst = found.machines[0]
     assert worst.indicator == "stiffness X"

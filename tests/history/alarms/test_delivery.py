@@ -16,15 +16,15 @@ from elastogeo.changes.alarms import OPEN, AlarmNews
 from elastogeo.errors import DeliveryError, InputError
 from elastogeo.history.alarms import delivery
 from elastogeo.history.alarms.acts import acknowledge, close
+from elastogeo.history.alarms.addresses import add_recipient, recipients, remove_recipient, shown
 from elastogeo.history.alarms.channels import Message, channel
 from elastogeo.history.alarms.channels.channel import _CHANNELS, Channel
 from elastogeo.history.alarms.delivery import deliver, wait_after
 from elastogeo.history.alarms.life import Step
+from elastogeo.history.alarms.open_ones import rows_of, standing
 from elastogeo.history.alarms.outbox import post
-from elastogeo.history.alarms.recipients import add_recipient, recipients, remove_recipient, shown
 from elastogeo.history.alarms.rows import open_alarms, open_one, take
 from elastogeo.history.alarms.silences import silence_machine
-from elastogeo.history.alarms.standing import rows_of, standing
 from elastogeo.history.store import Store, audit, now, open_store, read, write
 from elastogeo.history.store.schema import audit as trail
 from elastogeo.history.store.schema import outbox

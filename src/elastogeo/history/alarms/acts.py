@@ -6,10 +6,11 @@ from sqlalchemy import Connection
 
 from elastogeo.changes.alarms import ACKNOWLEDGED, FALSE, RELEASED, REPAIRED, AlarmList, AlarmNews
 from elastogeo.errors import InputError
+from elastogeo.history.alarms.assessing import assessed
 from elastogeo.history.alarms.life import Step, is_acknowledged
+from elastogeo.history.alarms.open_ones import rows_of, simulated
 from elastogeo.history.alarms.outbox import post, told, withdraw
 from elastogeo.history.alarms.rows import Kept, alarm_of, alarms, hold, take
-from elastogeo.history.alarms.standing import rows_of, simulated
 from elastogeo.history.series_of import days
 from elastogeo.history.store import Store, now, write
 from elastogeo.history.store.schema import alarm
@@ -28,7 +29,9 @@ def acknowledge(store: Store, number: int, who: str, why: str) -> AlarmList:
         kept = _open(connection, number)
         if is_acknowledged(kept.steps) and kept.steps[-1].who == who and kept.steps[-1].why == why:
             return _as_list(connection, kept)
-        return _as_list(connection, take(connection, kept, [Step(ACKNOWLEDGED, who=who, why=why)], now()))
+        kept = take(connection, kept, [Step(ACKNOWLEDGED, who=who, why=why)], now())
+        _judge_again(connection, kept)
+        return _as_list(connection, kept)
 
 
 def close(store: Store, number: int, repaired: bool, who: str, why: str) -> AlarmList:
@@ -57,7 +60,14 @@ def _closed(connection: Connection, kept: Kept, state: str, who: str, why: str) 
     kept = take(connection, kept, [Step(state, who=who, why=why)], at)
     withdraw(connection, kept, "the alarm was closed before it was sent")
     post(connection, kept, kept.keys[-1], _news(connection, kept), at, only=knew)
+    _judge_again(connection, kept)
     return kept
+
+
+def _judge_again(connection: Connection, kept: Kept) -> None:
+    """What a person does changes the state of the series, and is no news of the machine."""
+    if kept.series is not None:
+        assessed(connection, kept.series, False, now())
 
 
 def _let_go(connection: Connection, instrument: Kept, repaired: bool, who: str) -> None:
@@ -71,6 +81,7 @@ def _let_go(connection: Connection, instrument: Kept, repaired: bool, who: str) 
         at = now()
         freed = hold(connection, take(connection, held, [Step(RELEASED, who=who, why=why)], at), None)
         post(connection, freed, freed.keys[-1], _news(connection, freed), at)
+        _judge_again(connection, freed)
 
 
 def _news(connection: Connection, kept: Kept) -> AlarmNews:

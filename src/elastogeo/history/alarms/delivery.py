@@ -17,12 +17,13 @@ from sqlalchemy import Connection, and_, func, or_, select, update
 
 from elastogeo.changes.alarms import Delivered, Delivery
 from elastogeo.errors import DeliveryError, SelectionError
+from elastogeo.history.alarms.assessing import assess_waiting
 from elastogeo.history.alarms.channels import Channel, channel
 from elastogeo.history.alarms.channels.channel import Settings
+from elastogeo.history.alarms.open_ones import standing
 from elastogeo.history.alarms.outbox import GIVEN_UP, SENT, WAITING, message_of, post_digest
 from elastogeo.history.alarms.rows import PROGRAM
 from elastogeo.history.alarms.silences import silent_until
-from elastogeo.history.alarms.standing import standing
 from elastogeo.history.series_of import days
 from elastogeo.history.store import Store, audit, now, read, write
 from elastogeo.history.store.schema import alarm, alarm_step, outbox, recipient, series
@@ -44,7 +45,7 @@ def wait_after(tries: int, draw: Draw = random.random) -> timedelta:
 
 
 def deliver(store: Store, settings: Settings | None = None) -> Delivery:
-    """Make this week's digest if it is not made, and send what is due.
+    """Judge what waited for a repeat long enough, make this week's digest if it is not made, and send what is due.
 
     Parameters
     ----------
@@ -58,6 +59,7 @@ def deliver(store: Store, settings: Settings | None = None) -> Delivery:
         What was tried, and what is left.
     """
     settings = os.environ if settings is None else settings
+    judged = assess_waiting(store)
     with write(store) as connection:
         at = now()
         post_digest(connection, standing(connection, at), at)
@@ -67,7 +69,8 @@ def deliver(store: Store, settings: Settings | None = None) -> Delivery:
         tried[claimed.key] = _noted(store, claimed, error)
     with read(store) as connection:
         waiting, silenced = _left(connection, now())
-    return Delivery(days(now()), tuple(tried.values()), waiting, silenced)
+    series = tuple(verdict.series.name for verdict in judged)
+    return Delivery(days(now()), tuple(tried.values()), waiting, silenced, series)
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,11 +11,12 @@ from sqlalchemy import Connection, select
 from elastogeo.changes import ALARM, SUSPECT, ChangeVerdict, Rule
 from elastogeo.changes.alarms import FALSE, REPAIRED, AlarmNews
 from elastogeo.history.alarms.baselines import closed
+from elastogeo.history.alarms.instruments import assess_instrument
 from elastogeo.history.alarms.judging import judged, shown
 from elastogeo.history.alarms.life import Found, steps_of
+from elastogeo.history.alarms.open_ones import rows_of, simulated
 from elastogeo.history.alarms.outbox import post, was_told
 from elastogeo.history.alarms.rows import open_alarm, open_one, take
-from elastogeo.history.alarms.standing import rows_of, simulated
 from elastogeo.history.alarms.states import keep
 from elastogeo.history.alarms.telling import is_live, news
 from elastogeo.history.series_of import days, instant
@@ -65,9 +66,11 @@ def assessed(connection: Connection, key: int, live: bool, at: datetime) -> Chan
     steps = steps_of(found, before, None if kept else _cleared(connection, key))
     if steps:
         kept = take(connection, kept or open_one(connection, at, series=key), steps, at)
-        verdict = replace(verdict, alarm=shown(connection, kept))
+    assess_instrument(connection, key, verdict, live, at)
+    kept = open_alarm(connection, series=key)
+    verdict = replace(verdict, alarm=shown(connection, kept))
     place = news(before, steps, found, live, was)
-    if kept is not None and place is not None:
+    if kept is not None and place is not None and not kept.is_held:
         (row,) = rows_of(connection, [kept], at)
         told = AlarmNews(kept.steps[place].state, row, verdict, simulated(connection, key))
         post(connection, kept, kept.keys[place], told, at)
