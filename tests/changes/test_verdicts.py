@@ -17,9 +17,13 @@ from elastogeo.changes import (
     WATCH,
     Baseline,
     ChangeVerdict,
+    Rule,
     Series,
     Tolerance,
     judge,
+    reference_of,
+    start,
+    step,
 )
 from elastogeo.errors import InputError
 from tests.changes.simulated_series import MEANS, NAMES, baseline_of, deviations, judged, series_of, stepped
@@ -246,3 +250,27 @@ def test_the_verdict_does_not_depend_on_the_unit_of_time_since_when() -> None:
     assert verdict.change_point is not None
     assert verdict.change_point.test == "test 16"
     assert verdict.change_point.last_before == verdict.steps[5].date
+
+
+def test_the_replay_is_the_step_of_the_charts_one_test_after_the_other() -> None:
+    """All arrays at once against `step`, which the studies of false alarms count: with gaps, repeats and temperatures."""
+    random = np.random.default_rng(11)
+    series = series_of(np.vstack([np.zeros((10, 4)), random.normal(0, 2.5, (40, 4))]), seed=12)
+    value, date, repeats = series.value.copy(), series.date.copy(), series.repeats.copy()
+    value[random.random(value.shape) < 0.1] = np.nan
+    value[:10] = series.value[:10]
+    for i in range(14, 50, 5):
+        repeats[i], date[i] = i - 1, date[i - 1] + 0.1
+    warm = 20 + 3 * np.sin(date / 50)
+    series = replace(series, value=value, date=date, repeats=repeats, temperature=warm)
+    baseline = baseline_of(series)
+    verdict = judge(series, baseline)
+    reference = reference_of(series, baseline)
+    charts = start(reference)
+    for i in range(10, 50):
+        answers = bool(repeats[i] == i - 1)
+        charts, seen = step(charts, reference, Rule(), value[i], warm[i], np.full(4, np.nan), answers)
+        assert_allclose([one.single[i] for one in verdict.indicators], seen.single, rtol=1e-12)
+        assert_allclose([one.running[i] for one in verdict.indicators], seen.running, rtol=1e-12)
+        over = {name for name, side in zip(NAMES, seen.over, strict=True) if side}
+        assert set(verdict.steps[i - 10].over) == over

@@ -6,7 +6,7 @@ exact: mean and slope of the baseline count with their own uncertainty, in this 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -75,6 +75,8 @@ class Judged(ByValue):
         Of both.
     over : array of int, shape (..., q)
         Side on which it is beyond the limit, in either chart, by as much as matters; 0 where it is not.
+    near : array of int, shape (2, ..., q)
+        The same of each chart with the share of limit and relevance that confirms.
     confirmed : array of bool, shape (..., q)
         Whether the test confirms what was suspect before it.
     """
@@ -85,6 +87,7 @@ class Judged(ByValue):
     running: Array
     limit: Array
     over: Sides
+    near: Sides
     confirmed: Marks
 
     @property
@@ -137,30 +140,63 @@ def step(
     again = np.asarray(answers)[..., np.newaxis]
     repeat = here & again
     before = _choose(again, charts.before, charts.running)
-    warm = np.asarray(temperature, dtype=float)[..., np.newaxis] - reference.temperature
-    off = np.where(np.isfinite(warm), warm, 0.0)
+    off, scatter = warmth_and_scatter(reference, temperature, standard_uncertainty)
+    departure = value - reference.mean - reference.slope * off
+    running = _choose(here, _blend(before, rule.smoothing, departure, scatter, off), charts.running)
+    judged = read_charts(running, reference, rule, value, temperature, standard_uncertainty)
+    confirmed = repeat & confirms(judged, charts.suspect)
+    waiting = np.where(repeat, 0, charts.suspect)
+    suspect = np.where(confirmed, 0, np.where(judged.over != 0, judged.over, waiting)).astype(np.int8)
+    return Charts(running, before, suspect), replace(judged, confirmed=confirmed)
+
+
+def read_charts(
+    running: Running,
+    reference: Reference,
+    rule: Rule,
+    value: Array,
+    temperature: Array | float = np.nan,
+    standard_uncertainty: Array | float = np.nan,
+) -> Judged:
+    """What both charts say of tests whose running means are known, whatever was suspect: nothing is confirmed here.
+
+    Parameters
+    ----------
+    running : Running
+        After each test.
+    reference, rule, value, temperature, standard_uncertainty
+        As in `step`.
+    """
+    here = np.isfinite(value) & np.isfinite(reference.mean)
+    off, scatter = warmth_and_scatter(reference, temperature, standard_uncertainty)
     expected = reference.mean + reference.slope * off
-    scatter = _own_scatter(reference, warm, standard_uncertainty)
-    running = _choose(here, _blend(before, rule.smoothing, value - expected, scatter, off), charts.running)
-    s = reference.deviation
+    s, number = reference.deviation, np.sum(here, axis=-1, keepdims=True)
     with np.errstate(invalid="ignore", divide="ignore"):
         one = s * np.sqrt(scatter + 1 / reference.count + off**2 / reference.spread)
         mean = s * np.sqrt(running.scatter + running.weight**2 / reference.count + running.warmth**2 / reference.spread)
         single = np.where(here, (value - expected) / one, np.nan)
         smooth = np.where(here, running.mean / mean, np.nan)
-        limit = np.where(here, rule.limit(reference.degrees_of_freedom, np.sum(here, axis=-1, keepdims=True)), np.nan)
+        limit = np.where(here, rule.limit(reference.degrees_of_freedom, number), np.nan)
         change = (value - expected, running.mean / running.weight)
     over = _side(single, change[0], limit, reference.relevance)
     over = np.where(over == 0, _side(smooth, change[1], limit, reference.relevance), over)
     over = np.where(reference.count >= rule.least_baseline, over, 0).astype(np.int8)
-    near = tuple(
-        _side(t, by, rule.confirm * limit, rule.confirm * reference.relevance) == charts.suspect
-        for t, by in ((single, change[0]), (smooth, change[1]))
-    )
-    confirmed = repeat & (charts.suspect != 0) & (near[0] | near[1])
-    waiting = np.where(repeat, 0, charts.suspect)
-    suspect = np.where(confirmed, 0, np.where(over != 0, over, waiting)).astype(np.int8)
-    return Charts(running, before, suspect), Judged(expected, one, single, smooth, limit, over, confirmed)
+    least = rule.confirm * limit, rule.confirm * reference.relevance
+    near = np.stack([_side(t, by, *least) for t, by in ((single, change[0]), (smooth, change[1]))])
+    return Judged(expected, one, single, smooth, limit, over, near, np.zeros(over.shape, dtype=bool))
+
+
+def confirms(judged: Judged, suspect: Sides) -> Marks:
+    """Whether a test that repeats a suspect one is on its side, by the share of the limit that confirms, shape (..., q)."""
+    return np.asarray((suspect != 0) & np.any(judged.near == suspect, axis=0))
+
+
+def warmth_and_scatter(
+    reference: Reference, temperature: Array | float, standard_uncertainty: Array | float
+) -> tuple[Array, Array]:
+    """Of tests how much warmer [K] than the baseline, and the variance of each in units of that between tests."""
+    warm = np.asarray(temperature, dtype=float)[..., np.newaxis] - reference.temperature
+    return np.where(np.isfinite(warm), warm, 0.0), _own_scatter(reference, warm, standard_uncertainty)
 
 
 def _choose(where: Marks, one: Running, other: Running) -> Running:

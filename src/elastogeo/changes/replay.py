@@ -5,12 +5,12 @@ An alarm stays one until a person closes it, as repaired (another baseline) or a
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from elastogeo.changes.charts import Charts, Judged, Sides, start, step
+from elastogeo.changes.charts import Judged, Running, Sides, read_charts, warmth_and_scatter
 from elastogeo.changes.references import Reference
 from elastogeo.changes.result import ALARM, STEADY, SUSPECT, WATCH, Step
 from elastogeo.changes.rules import Rule
@@ -28,21 +28,20 @@ class Replay:
 
     Attributes
     ----------
-    charts : Charts
     state : str
     since : float [d]
-    steps : list of Step
     not_judged : dict of str to str
     single, running, running_mean : array, shape (n, q)
         NaN where a test was not judged.
     stands : array of bool, shape (n,)
         Judged since the last time that an alarm was closed as false, and no repeat took its place.
-    alarm : array of int, shape (q,)
-        Side of what is part of the alarm; 0 for what is not.
-    over : array of int, shape (q,)
-        Side on which the last test was beyond the limit.
+    sums : array, shape (4, q)
+        Those of `Running` after the last test.
+    suspect, alarm, over : array of int, shape (q,)
+        Side of what is suspect, of what is part of the alarm, and on which the last test was beyond the limit; 0 where not.
     joined : array of int, shape (q,)
         The test by which each became part of the alarm.
+    steps : list of Step
     last : int
         The test judged last; -1 before the first.
     asked : int
@@ -51,21 +50,68 @@ class Replay:
         Whether a second test confirmed the alarm: None without an alarm.
     """
 
-    charts: Charts
     state: str
     since: float
+    not_judged: dict[str, str]
     single: Array
     running: Array
     running_mean: Array
     stands: Flags
+    sums: Array
+    suspect: Sides
     alarm: Sides
     over: Sides
+    joined: Counts
     steps: list[Step] = field(default_factory=list)
-    not_judged: dict[str, str] = field(default_factory=dict)
-    joined: Counts = field(default_factory=lambda: np.zeros(0, dtype=int))
     last: int = -1
     asked: int = -1
     confirmed: bool | None = None
+
+    @staticmethod
+    def before(n: int, q: int, state: str, since: float, not_judged: dict[str, str]) -> Replay:
+        """Before the first of n tests of q indicators."""
+        none = np.zeros(q, dtype=np.int8)
+        return Replay(
+            state=state,
+            since=since,
+            not_judged=not_judged,
+            single=np.full((n, q), np.nan),
+            running=np.full((n, q), np.nan),
+            running_mean=np.full((n, q), np.nan),
+            stands=np.zeros(n, dtype=bool),
+            sums=np.zeros((4, q)),
+            suspect=none,
+            alarm=none,
+            over=none,
+            joined=np.full(q, -1),
+        )
+
+    def clear(self, quiet: str, at: float) -> None:
+        """A person closed the alarm as false: the running mean starts anew."""
+        empty = Replay.before(len(self.stands), len(self.alarm), quiet, at, {})
+        self.stands, self.sums, self.suspect, self.alarm = empty.stands, empty.sums, empty.suspect, empty.alarm
+        self.over, self.joined, self.last, self.asked, self.confirmed = empty.over, empty.joined, -1, -1, None
+        self.becomes(quiet, at)
+
+    def expire(self, series: Series, rule: Rule, at: float) -> None:
+        """A suspect test without a repeat is an alarm that nothing confirmed, once the waiting time is over."""
+        if self.asked < 0 or at <= series.date[self.asked] + rule.wait:
+            return
+        self.join(self.suspect, self.asked)
+        self.confirmed = bool(self.confirmed)
+        self.becomes(ALARM, float(series.date[self.asked]) + rule.wait)
+        self.suspect, self.asked = np.zeros_like(self.suspect), -1
+
+    def join(self, sides: Sides, i: int) -> None:
+        """Indicators, by the side on which they are off, become part of the alarm with a test."""
+        new = (self.alarm == 0) & (sides != 0)
+        self.alarm = np.where(new, sides, self.alarm).astype(np.int8)
+        self.joined = np.where(new, i, self.joined)
+
+    def becomes(self, state: str, at: float) -> None:
+        """Another state, from then on."""
+        if state != self.state:
+            self.state, self.since = state, at
 
 
 def replay(series: Series, baseline: Baseline, reference: Reference, rule: Rule, now: float) -> Replay:
@@ -82,139 +128,147 @@ def replay(series: Series, baseline: Baseline, reference: Reference, rule: Rule,
     """
     n, q = series.value.shape
     quiet = STEADY if np.any(reference.count >= rule.least_baseline) else WATCH
-    nothing = np.full((n, q), np.nan)
-    none = np.zeros(q, dtype=np.int8)
-    found = Replay(
-        start(reference),
-        quiet,
-        baseline.since,
-        nothing,
-        nothing.copy(),
-        nothing.copy(),
-        np.zeros(n, dtype=bool),
-        none,
-        none,
-        joined=np.full(q, -1),
+    not_judged: dict[str, str] = {}
+    order = list(_judged(series, baseline, not_judged))
+    cleared = [at for at in sorted(baseline.cleared) if at <= now or (order and at <= series.date[order[-1]])]
+    answers = _answers(series, rule, order, cleared)
+    running = _running(series, reference, rule, order, answers, cleared)
+    rows = np.array(order, dtype=int)
+    judged = read_charts(
+        Running(*running), reference, rule, series.value[rows], series.temperature[rows], series.standard_uncertainty[rows]
     )
-    cleared = sorted(baseline.cleared)
-    for i in _judged(series, baseline, found):
+    found = Replay.before(n, q, quiet, baseline.since, not_judged)
+    found.single[rows], found.running[rows] = judged.single, judged.running
+    found.running_mean[rows] = _running_mean(judged, running)
+    ratio = judged.ratio
+    for at, i in enumerate(order):
         while cleared and cleared[0] <= series.date[i]:
-            _clear(found, reference, quiet, cleared.pop(0))
-        _expire(found, series, rule, float(series.date[i]))
-        _judge(found, series, reference, rule, i, quiet)
-    while cleared and cleared[0] <= now:
-        _clear(found, reference, quiet, cleared.pop(0))
-    _expire(found, series, rule, now)
+            found.clear(quiet, cleared.pop(0))
+        found.expire(series, rule, float(series.date[i]))
+        _judge(found, series, judged, ratio[at], at, i, answers[at], quiet)
+        found.sums = running[:, at]
+    while cleared:
+        found.clear(quiet, cleared.pop(0))
+    found.expire(series, rule, now)
     return found
 
 
-def _judged(series: Series, baseline: Baseline, found: Replay) -> Iterator[int]:
+def _judged(series: Series, baseline: Baseline, not_judged: dict[str, str]) -> Iterator[int]:
     """The tests that are judged; why the others are not."""
     own = set(baseline.tests)
+    shown = np.any(np.isfinite(series.value), axis=1)
     for i, test in enumerate(series.tests):
         if series.aside[i]:
-            found.not_judged[test] = SET_ASIDE
+            not_judged[test] = SET_ASIDE
         elif test in own:
             continue
         elif series.date[i] < baseline.since:
-            found.not_judged[test] = BEFORE
-        elif not np.isfinite(series.value[i]).any():
-            found.not_judged[test] = NOTHING
+            not_judged[test] = BEFORE
+        elif not shown[i]:
+            not_judged[test] = NOTHING
         else:
             yield i
 
 
-def _clear(found: Replay, reference: Reference, quiet: str, at: float) -> None:
-    """A person closed the alarm as false: the running mean starts anew."""
-    found.charts = start(reference)
-    found.stands[:] = False
-    found.alarm, found.over = np.zeros_like(found.alarm), np.zeros_like(found.over)
-    found.joined = np.full_like(found.joined, -1)
-    found.last, found.asked, found.confirmed = -1, -1, None
-    _becomes(found, quiet, at)
+def _answers(series: Series, rule: Rule, order: Sequence[int], cleared: Sequence[float]) -> list[bool]:
+    """Of each judged test whether it repeats the one before it in time: it takes its place in the running mean."""
+    found = [False] * len(order)
+    for at in range(1, len(order)):
+        i, j = order[at], order[at - 1]
+        between = any(series.date[j] < end <= series.date[i] for end in cleared)
+        found[at] = int(series.repeats[i]) == j and series.date[i] <= series.date[j] + rule.wait and not between
+    return found
 
 
-def _expire(found: Replay, series: Series, rule: Rule, at: float) -> None:
-    """A suspect test without a repeat is an alarm that nothing confirmed, once the waiting time is over."""
-    if found.asked < 0 or at <= series.date[found.asked] + rule.wait:
-        return
-    _join(found, found.charts.suspect, found.asked)
-    found.confirmed = bool(found.confirmed)
-    _answered(found, float(series.date[found.asked]) + rule.wait)
+def _running(
+    series: Series,
+    reference: Reference,
+    rule: Rule,
+    order: Sequence[int],
+    answers: Sequence[bool],
+    cleared: Sequence[float],
+) -> Array:
+    """The sums of `Running` after each judged test, shape (4, tests, q): as `step` has them, without an object a test."""
+    rows = np.array(order, dtype=int)
+    value = series.value[rows]
+    off, scatter = warmth_and_scatter(reference, series.temperature[rows], series.standard_uncertainty[rows])
+    here = np.isfinite(value) & np.isfinite(reference.mean)
+    share, old = rule.smoothing, 1 - rule.smoothing
+    departure = np.where(here, value - reference.mean - reference.slope * off, 0.0)
+    added = np.stack([share * departure, np.full(value.shape, share), share**2 * scatter, share * off], axis=1)
+    fading = np.array([old, old, old**2, old])[:, np.newaxis]
+    sums = np.zeros((len(order), 4, value.shape[1]))
+    running = before = np.zeros((4, value.shape[1]))
+    ends = list(cleared)
+    for at, i in enumerate(order):
+        while ends and ends[0] <= series.date[i]:
+            ends.pop(0)
+            running = before = np.zeros_like(running)
+        before = before if answers[at] else running
+        running = np.where(here[at], fading * before + added[at], running)
+        sums[at] = running
+    return np.moveaxis(sums, 1, 0)
 
 
-def _join(found: Replay, sides: Sides, i: int) -> None:
-    """Indicators, by the side on which they are off, become part of the alarm with a test."""
-    new = (found.alarm == 0) & (sides != 0)
-    found.alarm = np.where(new, sides, found.alarm).astype(np.int8)
-    found.joined = np.where(new, i, found.joined)
+def _running_mean(judged: Judged, running: Array) -> Array:
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(np.isfinite(judged.running), judged.expected + running[0] / running[1], np.nan)
 
 
-def _answered(found: Replay, at: float) -> None:
-    """What was suspect is an alarm now."""
-    found.charts = replace(found.charts, suspect=np.zeros_like(found.charts.suspect))
-    found.asked = -1
-    _becomes(found, ALARM, at)
-
-
-def _becomes(found: Replay, state: str, at: float) -> None:
-    if state != found.state:
-        found.state, found.since = state, at
-
-
-def _judge(found: Replay, series: Series, reference: Reference, rule: Rule, i: int, quiet: str) -> None:
-    """One test through the charts, and what it makes of the state."""
-    before, date = found.charts.suspect, float(series.date[i])
-    answers = found.last >= 0 and int(series.repeats[i]) == found.last and bool(before.any() or found.over.any())
-    found.charts, judged = step(
-        found.charts, reference, rule, series.value[i], float(series.temperature[i]), series.standard_uncertainty[i], answers
-    )
-    _keep(found, judged, i)
-    again = (judged.over != 0) & (judged.over == np.where(before != 0, before, found.over))
-    sure = judged.confirmed | (again & ((before != 0) | (found.alarm.any())))
-    if answers:
-        _answer(found, series, i, bool(sure.any()))
-    _join(found, np.where(sure, np.where(judged.over == 0, before, judged.over), 0), i)
-    found.over, found.last = judged.over, i
-    if found.alarm.any():
-        found.confirmed = bool(found.confirmed) or bool(sure.any())
-        _answered(found, date)
-    elif found.charts.suspect.any():
-        found.asked = i if answers or found.asked < 0 else found.asked
-        _becomes(found, SUSPECT, date)
+def _judge(found: Replay, series: Series, judged: Judged, ratio: Array, at: int, i: int, answers: bool, quiet: str) -> None:
+    """What one test makes of the state."""
+    before, over = found.suspect, judged.over[at]
+    signal = bool(over.any())
+    if signal or answers or found.asked >= 0:
+        _suspected(found, series, judged, at, i, answers)
+    found.over, found.last = over, i
+    found.stands[i] = True
+    if found.state == ALARM or found.alarm.any():
+        found.becomes(ALARM, float(series.date[i]))
+    elif found.suspect.any():
+        found.asked = i if answers or not before.any() else found.asked
+        found.becomes(SUSPECT, float(series.date[i]))
     else:
         found.asked = -1
-        _becomes(found, quiet, date)
-    found.steps.append(_step(found, series, judged, i, answers))
+        found.becomes(quiet, float(series.date[i]))
+    found.steps.append(_step(found, series, judged, ratio, at, i, answers))
 
 
-def _keep(found: Replay, judged: Judged, i: int) -> None:
-    found.single[i], found.running[i] = judged.single, judged.running
-    held = found.charts.running
-    with np.errstate(invalid="ignore", divide="ignore"):
-        mean = np.where(np.isfinite(judged.running), judged.expected + held.mean / held.weight, np.nan)
-    found.running_mean[i] = mean
-    found.stands[i] = True
+def _suspected(found: Replay, series: Series, judged: Judged, at: int, i: int, answers: bool) -> None:
+    """A test that signals, or that follows a suspect one: what it confirms, and what is suspect after it."""
+    before, over = found.suspect, judged.over[at]
+    here = np.isfinite(judged.single[at])
+    confirmed = answers & here & (before != 0) & np.any(judged.near[:, at] == before, axis=0)
+    again = (over != 0) & (over == np.where(before != 0, before, found.over))
+    sure = confirmed | (again & ((before != 0) | bool(found.alarm.any())))
+    if answers:
+        _answer(found, series, i, bool(sure.any()))
+    waiting = np.where(answers & here, 0, before)
+    found.suspect = np.where(confirmed, 0, np.where(over != 0, over, waiting)).astype(np.int8)
+    found.join(np.where(sure, np.where(over == 0, before, over), 0), i)
+    if found.alarm.any():
+        found.confirmed = bool(found.confirmed) or bool(sure.any())
+        found.suspect, found.asked = np.zeros_like(found.suspect), -1
 
 
 def _answer(found: Replay, series: Series, i: int, sure: bool) -> None:
     """A repeat takes the place of the test that it repeats."""
     j = found.last
     found.stands[j] = False
-    at = next(k for k in reversed(range(len(found.steps))) if found.steps[k].test == series.tests[j])
-    found.steps[at] = replace(found.steps[at], confirmed=sure, replaced="" if sure else series.tests[i])
+    step = found.steps[-1]
+    asked = step.state == SUSPECT or bool(step.over)
+    found.steps[-1] = replace(step, confirmed=sure if asked else None, replaced="" if sure else series.tests[i])
 
 
-def _step(found: Replay, series: Series, judged: Judged, i: int, answers: bool) -> Step:
-    ratio = judged.ratio
+def _step(found: Replay, series: Series, judged: Judged, ratio: Array, at: int, i: int, answers: bool) -> Step:
     furthest = np.argsort(-ratio, kind="stable")
-    known = bool(np.isfinite(judged.single).any())
+    known = bool(np.isfinite(judged.single[at]).any())
     return Step(
         test=series.tests[i],
         date=float(series.date[i]),
         state=found.state,
-        over=tuple(series.indicators[k] for k in furthest if judged.over[k]),
-        ratio=float(ratio.max()) if known else 0.0,
+        over=tuple(series.indicators[k] for k in furthest if judged.over[at, k]),
+        ratio=float(ratio[furthest[0]]) if known else 0.0,
         first=series.indicators[furthest[0]] if known else "",
         repeats=series.tests[series.repeats[i]] if answers else "",
     )

@@ -47,7 +47,7 @@ class Step(Part):
     repeats : str
         The suspect test that it repeats; empty if none.
     replaced : str
-        The test that took its place, since the repeat did not confirm it; empty if it stands.
+        The repeat that took its place, as it did not confirm it; empty if it stands, or was confirmed.
     confirmed : bool or None
         Of a suspect: True if a repeat on the same side confirms it, False if it does not, None without one: `unconfirmed`
         once the waiting time is over.

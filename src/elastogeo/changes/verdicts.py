@@ -10,7 +10,6 @@ import numpy as np
 
 from elastogeo.changes.causes import Cause, causes_of
 from elastogeo.changes.change_points import ChangePoint, Since, change_point_of, since_baseline, weights_of_step
-from elastogeo.changes.charts import start
 from elastogeo.changes.checks import checks_of
 from elastogeo.changes.drifts import DRIFT, STEP, YEAR, Drift, Line, drift_of, line_of, shape_of, weights_of_ramp
 from elastogeo.changes.priors import Prior
@@ -89,16 +88,11 @@ def judge(
 
 def _without_baseline(series: Series, rule: Rule, now: float, tolerances: Mapping[str, Tolerance]) -> ChangeVerdict:
     """All that is known without a baseline: the last values."""
-    q = len(series.indicators)
-    none = np.full(q, nan)
-    zero = np.zeros(q)
-    reference = Reference(none, none, none, zero, none, zero, zero, np.full(q, inf), zero)
-    nothing = np.full(series.value.shape, nan)
-    sides = np.zeros(q, dtype=np.int8)
-    stands = ~series.aside & np.isfinite(series.value).any(axis=1)
-    found = Replay(
-        start(reference), NO_BASELINE, nan, nothing, nothing, nothing, stands, sides, sides, joined=np.full(q, -1)
-    )
+    n, q = series.value.shape
+    none, zero = np.full(q, nan), np.zeros(q)
+    reference = Reference(none, none, none, zero, none, zero, none, np.full(q, inf), zero)
+    found = Replay.before(n, q, NO_BASELINE, nan, {})
+    found.stands = ~series.aside & np.isfinite(series.value).any(axis=1)
     since = Since((), np.zeros(0), nan, np.zeros((0, q)), reference)
     indicators = tuple(
         _indicator(series, since, rule, found, k, tolerances.get(name, Tolerance()))
@@ -186,7 +180,7 @@ def _state_of(since: Since, rule: Rule, found: Replay, k: int) -> str:
         return NO_BASELINE
     if found.alarm[k]:
         return ALARM
-    if found.state == SUSPECT and found.charts.suspect[k]:
+    if found.state == SUSPECT and found.suspect[k]:
         return SUSPECT
     return STEADY if count >= rule.least_baseline else WATCH
 
@@ -203,13 +197,12 @@ def _expected(series: Series, reference: Reference, k: int) -> tuple[Array, Arra
 
 def _by_running_mean(reference: Reference, found: Replay, k: int) -> tuple[float, float]:
     """How far the running mean is off, with half the width of its 95 % interval; NaN before the first test."""
-    held = found.charts.running
-    weight = float(held.weight[k])
+    total, weight, scatter, warmth = (float(one) for one in found.sums[:, k])
     if not weight > 0:
         return nan, nan
-    variance = held.scatter[k] + weight**2 / reference.count[k] + held.warmth[k] ** 2 / reference.spread[k]
+    variance = scatter + weight**2 / float(reference.count[k]) + warmth**2 / float(reference.spread[k])
     factor = float(coverage_factor(reference.degrees_of_freedom[[k]])[0])
-    return float(held.mean[k]) / weight, factor * float(reference.deviation[k] * np.sqrt(variance)) / weight
+    return total / weight, factor * float(reference.deviation[k]) * sqrt(variance) / weight
 
 
 def _changed(plain: IndicatorState, since: Since, found: Replay, k: int) -> IndicatorState:
