@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
-from elastogeo.changes import AuditTrail, Kind, Tolerance
+from elastogeo.changes import AuditTrail, KeptPlans, Kind, Recomputed, Tolerance
 from elastogeo.errors import ElastogeoError, StoreError
+from elastogeo.history.alarms.assessing import assess
+from elastogeo.history.analyses import due_date, finish_plan, keep_plan, plans, read_plan, recompute
 from elastogeo.history.intake.days import ends_of_day
 from elastogeo.history.intake.folders import in_order, tests_in
 from elastogeo.history.intake.imports import Imported, import_test
-from elastogeo.history.intake.machines import KnownMachine, add_machine, machines
+from elastogeo.history.intake.machines import KnownMachine, add_machine, machine_named, machines
 from elastogeo.history.names import KnownSeries, series_named, series_of_machine
 from elastogeo.history.requirements.baselines import Chosen, choose, set_baseline
 from elastogeo.history.requirements.intervals import set_interval
 from elastogeo.history.requirements.tolerances import kind_of, set_tolerance
+from elastogeo.history.series_of import days
 from elastogeo.history.store import Store, audit, now, open_store, read
+from elastogeo.planning import Plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,3 +214,59 @@ class History:
         with read(self.store) as connection:
             key = series_named(connection, machine, series).key
         set_interval(self.store, key, days, grace, who=self.who, why=why)
+
+    def recompute(
+        self, series: Iterable[int] | None = None, *, progress: Callable[[str], None] | None = None, jobs: int = 1
+    ) -> Recomputed:
+        """Compute series, by default all, again from their raw records; a new version takes them over, each as a whole.
+
+        Those whose charts changed by it are judged again; nobody is told.
+
+        Raises
+        ------
+        InputError
+            If there is no such series, or a later version than this one computed it.
+        """
+        found = recompute(self.store, series, self.who, progress, jobs)
+        for key in found.changed:
+            assess(self.store, key)
+        return found
+
+    def keep_plan(self, plan: Plan | str | Path, *, machine: str, name: str = "", due: str = "", grace: float = 7.0) -> int:
+        """Keep a plan of tests for a machine, until when it is to be done, and after how many days it is overdue.
+
+        Parameters
+        ----------
+        plan : Plan, str or Path
+            From `eg.plan`, or the file that `elastogeo plan --json` printed.
+        machine, name : str
+            By default the plan is called after its file, or the day.
+        due : str
+            `2026-05-01`; empty: no date.
+        grace : float [d]
+
+        Returns
+        -------
+        int
+            Its number.
+
+        Raises
+        ------
+        InputError
+            If it is no plan, or the machine has one of this name.
+        """
+        document = plan.to_dict() if isinstance(plan, Plan) else read_plan(Path(plan))
+        called = name or (f"{now():%Y-%m-%d}" if isinstance(plan, Plan) else Path(plan).stem)
+        with read(self.store) as connection:
+            owner = machine_named(connection, machine).key
+        return keep_plan(self.store, owner, called, document, due_date(due), grace, self.who)
+
+    def finish_plan(self, number: int, why: str = "") -> None:
+        """Say that a plan was done."""
+        finish_plan(self.store, number, self.who, why)
+
+    def plans(self, machine: str | None = None) -> KeptPlans:
+        """The plans of a machine, or of all, the most urgent first."""
+        with read(self.store) as connection:
+            of = None if machine is None else machine_named(connection, machine).key
+            return KeptPlans(self.store.url, days(now()), plans(connection, now(), of))

@@ -88,7 +88,7 @@ def test_the_same_version_gives_the_same_bits(store: Store) -> None:
     analyse(store, test)
     found = recompute(store, [series])
     assert [(one.test, one.same_bits, one.differing, one.error) for one in found.tests] == [(test, True, (), "")]
-    assert found.switched == {}
+    assert (found.switched, found.changed) == ({}, ())
     (check,) = found.verdict
     assert (check.passed, check.decisive, check.facts["compared"], check.facts["same_bits"]) == (True, True, 1, 1)
     assert analyses(store) == 1
@@ -137,7 +137,7 @@ def test_a_new_version_switches_the_whole_series(store: Store, stand_in: StandIn
     with read(store) as connection:
         assert outdated(connection) == (series, other)
     found = recompute(store, [series], "A. Miller")
-    assert found.switched == {"Mill 3: circle XY": (OLD, NEW)}
+    assert (found.switched, found.changed) == ({"Mill 3: circle XY": (OLD, NEW)}, (series,))
     assert values(store, series) == [200.0, 202.0, 204.0]
     assert (software_of(store, series), software_of(store, other)) == (NEW, OLD)
     assert [(one.before, one.now) for one in found.tests] == [(OLD, NEW)] * 3
@@ -212,6 +212,7 @@ def test_what_failed_before_and_works_now_is_kept(store: Store, stand_in: StandI
     stand_in.errors.clear()
     found = recompute(store, [series])
     assert [one.mended for one in found.tests] == [False, True, False]
+    assert found.changed == (series,)
     assert values(store, series) == [100.0, 101.0, 102.0]
     assert found.verdict[0].passed is True
     assert [one.mended for one in recompute(store, [series]).tests] == [False] * 3

@@ -81,12 +81,15 @@ class Recomputed(Result):
     tests : tuple of RecomputedTest
     switched : dict of str to tuple of (str, str)
         By series the version that its chart counted with, and the one it counts with now.
+    changed : tuple of int
+        Keys of the series whose charts are other ones now: they count with another version, or have a test more.
     verdict : tuple of Check
     """
 
     store: str
     tests: tuple[RecomputedTest, ...]
     switched: dict[str, tuple[str, str]]
+    changed: tuple[int, ...]
     verdict: tuple[Check, ...]
 
 

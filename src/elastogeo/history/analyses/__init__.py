@@ -1,13 +1,45 @@
 """What tests say, computed from their raw records: analyses, whole series again, campaigns, plans. Sends nothing."""
 
+from typing import TYPE_CHECKING
+
 from elastogeo.discovery import first_use
+
+if TYPE_CHECKING:
+    from elastogeo.history.analyses.analysing import PROGRAM, analyse, last_analysis
+    from elastogeo.history.analyses.kept_campaigns import (
+        campaign_text,
+        campaigns,
+        keep_campaign,
+        kept_campaign,
+        recompute_campaign,
+    )
+    from elastogeo.history.analyses.kept_plans import due_date, finish_plan, keep_plan, plans, read_plan
+    from elastogeo.history.analyses.recomputing import outdated, recompute
+
+__all__ = [
+    "PROGRAM",
+    "analyse",
+    "campaign_text",
+    "campaigns",
+    "due_date",
+    "finish_plan",
+    "keep_campaign",
+    "keep_plan",
+    "kept_campaign",
+    "last_analysis",
+    "outdated",
+    "plans",
+    "read_plan",
+    "recompute",
+    "recompute_campaign",
+]
 
 __getattr__ = first_use(
     __name__,
     {
         "analysing": "PROGRAM analyse last_analysis",
         "kept_campaigns": "campaign_text campaigns keep_campaign kept_campaign recompute_campaign",
-        "kept_plans": "finish_plan keep_plan plans",
+        "kept_plans": "due_date finish_plan keep_plan plans read_plan",
         "recomputing": "outdated recompute",
     },
 )

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
-from datetime import datetime
+from datetime import UTC, date, datetime, time
 from math import isfinite
+from pathlib import Path
 from typing import Any
 
 from sqlalchemy import Connection, Row, insert, select, update
 
 from elastogeo.changes import KeptPlan, due_on
-from elastogeo.errors import InputError
+from elastogeo.errors import FormatError, InputError
 from elastogeo.history.series_of import days
 from elastogeo.history.store import Store, audit, now, write
 from elastogeo.history.store.schema import machine, plan
@@ -130,3 +132,44 @@ def _kept(row: Row[Any], at: float) -> KeptPlan:
 
 def _urgency(one: KeptPlan) -> tuple[bool, bool, float]:
     return one.done_at is not None, one.due.at is None, one.due.at or 0.0
+
+
+def read_plan(file: Path) -> dict[str, Any]:
+    """A plan as `elastogeo plan --json` printed it to a file.
+
+    Raises
+    ------
+    FormatError
+        If it cannot be opened, or is no JSON object.
+    """
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise FormatError(f"{file}: cannot be opened ({error.strerror}); check the path") from None
+    except ValueError as error:
+        raise FormatError(f"{file}: is no JSON ({error}); write it with: elastogeo plan ... --json > {file.name}") from None
+    if not isinstance(found, dict):
+        raise FormatError(f"{file}: holds no JSON object; write it with: elastogeo plan ... --json > {file.name}")
+    return found
+
+
+def due_date(text: str) -> datetime | None:
+    """A due date as a person writes it; of a day without a time its noon, without a zone UTC; None of an empty text.
+
+    Raises
+    ------
+    InputError
+        If it is no date.
+    """
+    if not text.strip():
+        return None
+    try:
+        day = date.fromisoformat(text.strip())
+        return datetime.combine(day, time(12), UTC)
+    except ValueError:
+        pass
+    try:
+        at = datetime.fromisoformat(text.strip())
+    except ValueError:
+        raise InputError(f"the due date is {text!r}; write 2026-05-01, or 2026-05-01T14:30+02:00") from None
+    return at if at.tzinfo is not None else at.replace(tzinfo=UTC)

@@ -76,13 +76,17 @@ def recompute(
             _check_later(connection, key, name)
     tests: list[RecomputedTest] = []
     switched: dict[str, tuple[str, str]] = {}
+    changed: list[int] = []
     for key, name in names.items():
         told = partial(_tell, progress or (lambda _: None), name)
-        tests += _recomputed(store, key, name, who, told, jobs)
+        found = _recomputed(store, key, name, who, told, jobs)
         before = _switch(store, key, who, told, jobs)
         if before != VERSION:
             switched[name] = (before, VERSION)
-    return Recomputed(store.url, tuple(tests), switched, (recomputed_same(tests),))
+        if before != VERSION or any(one.mended or not one.before for one in found):
+            changed.append(key)
+        tests += found
+    return Recomputed(store.url, tuple(tests), switched, tuple(changed), (recomputed_same(tests),))
 
 
 def outdated(connection: Connection) -> tuple[int, ...]:

@@ -123,3 +123,17 @@ def tests_independent(facts: Facts, passed: bool | None) -> str:
         f"Successive tests are alike ({share}, over {facts['pairs']} pairs): the running mean makes more false alarms than "
         f"it is designed for. Temperature or the set-up may be why."
     )
+
+
+@says("the same again")
+def the_same_again(facts: Facts, passed: bool | None) -> str:
+    """Whether the raw records give again what is kept."""
+    if passed is None:
+        return "Nothing was compared: this version computed these tests for the first time."
+    if passed:
+        bits = facts["same_bits"]
+        return f"{bits} of {facts['compared']} tests are the same to the last bit, the others to 1e-12 of each number."
+    return (
+        f"{facts['differing']} of {facts['compared']} tests differ, first {facts['first']!r} at {facts['path']}: "
+        "the program, or what it stands on, is another one under the same version number."
+    )
