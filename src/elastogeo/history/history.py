@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from types import TracebackType
 
 from elastogeo.changes import AuditTrail, KeptPlans, Kind, Recomputed, Tolerance
+from elastogeo.changes.alarms import AlarmList, Delivery
 from elastogeo.errors import ElastogeoError, StoreError
+from elastogeo.history import alarms
 from elastogeo.history.alarms.assessing import assess
 from elastogeo.history.analyses import due_date, finish_plan, keep_plan, plans, read_plan, recompute
 from elastogeo.history.intake.days import ends_of_day
@@ -270,3 +273,24 @@ class History:
         with read(self.store) as connection:
             of = None if machine is None else machine_named(connection, machine).key
             return KeptPlans(self.store.url, days(now()), plans(connection, now(), of))
+
+    def alarms(self) -> AlarmList:
+        """All that waits for somebody: open alarms, overdue tests, messages that did not arrive."""
+        with read(self.store) as connection:
+            return alarms.standing(connection, now())
+
+    def acknowledge(self, number: int, why: str) -> AlarmList:
+        """Say that somebody knows of an alarm; it stays open, and is told again only if it becomes worse."""
+        return alarms.acknowledge(self.store, number, self.who, why)
+
+    def close_alarm(self, number: int, *, repaired: bool, why: str) -> AlarmList:
+        """End an alarm: as repaired, so that a new baseline follows, or as false, so that the old one stays."""
+        return alarms.close(self.store, number, repaired, self.who, why)
+
+    def silence(self, machine: str, until: datetime, why: str) -> None:
+        """Send nothing of a machine until then; what is held back is sent afterwards."""
+        alarms.silence_machine(self.store, machine, until, self.who, why)
+
+    def deliver(self) -> Delivery:
+        """Send what is due, this week's digest included."""
+        return alarms.deliver(self.store)
