@@ -35,7 +35,8 @@ def test_the_digest_shows_what_is_open_and_its_json_says_the_same(shop, elastoge
     assert "1 alarm is open (1 that nobody has acknowledged), no test is overdue." in out
     assert "stiffness X 1.8 times its limit" in out
     (alarm,) = json.loads(elastogeo("history", "digest", "--json", "--store", shop)[1])["alarms"]
-    assert (alarm["number"], alarm["machine"], alarm["state"], alarm["over"]) == (1, "C50 no. 3", "open", {"stiffness X": 1.8})
+    assert (alarm["number"], alarm["machine"], alarm["state"]) == (1, "C50 no. 3", "open")
+    assert alarm["over"] == {"stiffness X": 1.8}
 
 
 def test_acknowledge_and_close_want_a_reason(shop, elastogeo):
