@@ -2,22 +2,40 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from types import TracebackType
 
-from elastogeo.changes import AuditTrail, KeptPlans, Kind, Recomputed, Tolerance
+from sqlalchemy import Connection
+
+from elastogeo.changes import SUSPECT, AuditTrail, ChangeVerdict, KeptPlans, Kind, Recomputed, Tolerance
 from elastogeo.changes.alarms import AlarmList, Delivery
 from elastogeo.errors import ElastogeoError, StoreError
 from elastogeo.history import alarms
 from elastogeo.history.alarms.assessing import assess
-from elastogeo.history.analyses import due_date, finish_plan, keep_plan, plans, read_plan, recompute
+from elastogeo.history.alarms.judging import judged
+from elastogeo.history.analyses import (
+    analyse,
+    due_date,
+    finish_plan,
+    keep_plan,
+    plans,
+    read_plan,
+    recompute,
+    unanalysed,
+)
+from elastogeo.history.intake.asides import KnownTest, set_test_aside
 from elastogeo.history.intake.days import ends_of_day
-from elastogeo.history.intake.folders import in_order, tests_in
+from elastogeo.history.intake.folders import in_order, paths_of_tests, written
+from elastogeo.history.intake.happenings import Happened, record_event
 from elastogeo.history.intake.imports import Imported, import_test
+from elastogeo.history.intake.instruments import KnownInstrument, add_instrument
 from elastogeo.history.intake.machines import KnownMachine, add_machine, machine_named, machines
+from elastogeo.history.intake.notebook import Notebook
+from elastogeo.history.intake.watching import EVERY, SETTLE, Seen, Watch
 from elastogeo.history.names import KnownSeries, series_named, series_of_machine
 from elastogeo.history.requirements.baselines import Chosen, choose, set_baseline
 from elastogeo.history.requirements.intervals import set_interval
@@ -36,13 +54,24 @@ class Added:
     path : Path
     imported : Imported or None
         None if it was refused.
+    verdict : ChangeVerdict or None
+        What its series says then.
+    unanalysed : str
+        Why it says nothing there; empty if it does.
     error : str
         Why it was refused; empty if it was not.
     """
 
     path: Path
     imported: Imported | None
+    verdict: ChangeVerdict | None = None
+    unanalysed: str = ""
     error: str = ""
+
+    @property
+    def new(self) -> bool:
+        """Whether it came in just now."""
+        return self.imported is not None and self.imported.new
 
 
 class History:
@@ -92,6 +121,25 @@ class History:
         """Add a machine, or say more of one that is there."""
         return add_machine(self.store, name, who=self.who, kind=kind, serial=serial, place=place)
 
+    def add_instrument(
+        self, serial: str, *, kind: str = "", calibrated: str = "", due: str = "", certificate: str = ""
+    ) -> KnownInstrument:
+        """Add an instrument, or say more of one that is there: a calibration, and until when it holds."""
+        said = {"kind": kind, "calibrated": calibrated, "due": due, "certificate": certificate}
+        return add_instrument(self.store, serial, who=self.who, **said)
+
+    def add_event(
+        self, kind: str, note: str, *, machine: str | None = None, instrument: str | None = None, at: str = ""
+    ) -> Happened:
+        """Keep what happened to a machine or an instrument: a repair, parameter edit, move, crash, calibration or note."""
+        return record_event(self.store, kind, note, who=self.who, machine=machine, instrument=instrument, at=at)
+
+    def set_aside(self, test: int, why: str, *, back: bool = False) -> KnownTest:
+        """Set a test aside, so that it counts no more, or take it back."""
+        found = set_test_aside(self.store, test, who=self.who, why=why, back=back)
+        assess(self.store, found.series)
+        return found
+
     def audit(self, last: int = 20, subject: str = "", who: str = "") -> AuditTrail:
         """The audit trail: its last rows (of a subject, of a person), and whether all of it is as it was written."""
         from elastogeo.history.store.trail import audit_trail
@@ -104,7 +152,13 @@ class History:
             return machines(connection)
 
     def add(
-        self, path: str | Path, *, machine: str | None = None, repeats: str | int | None = None, date: str = ""
+        self,
+        path: str | Path,
+        *,
+        machine: str | None = None,
+        repeats: str | int | None = None,
+        date: str = "",
+        undated: str = "",
     ) -> Added:
         """Import one test, and say what the history says of its machine then.
 
@@ -118,6 +172,8 @@ class History:
             The suspect test that it repeats: a number, `last` or `none`; without it, it is found.
         date : str
             When it was measured, if the test does not say it.
+        undated : str
+            When it counts as measured if neither says it.
 
         Raises
         ------
@@ -125,10 +181,20 @@ class History:
             If it is no test, or machine or date are not said; nothing was imported then.
         """
         path = Path(path)
-        imported = import_test(self.store, path, machine=machine, who=self.who, repeats=repeats, date=date)
-        return Added(path, imported)
+        asked = {"machine": machine, "repeats": repeats, "date": date, "undated": undated}
+        imported = import_test(self.store, path, who=self.who, was_suspect=_was_suspect, **asked)  # type: ignore[arg-type]
+        analysis = analyse(self.store, imported.test, self.who)
+        return Added(
+            path, imported, assess(self.store, imported.series, imported.test), self._unanalysed(imported.series, analysis)
+        )
 
-    def add_all(self, path: str | Path, *, machine: str | None = None, date: str = "") -> Iterator[Added]:
+    def _unanalysed(self, series: int, analysis: int) -> str:
+        with read(self.store) as connection:
+            return str(unanalysed(connection, series, analysis))
+
+    def add_all(
+        self, path: str | Path, *, machine: str | None = None, date: str = "", dates_of_files: bool = False
+    ) -> Iterator[Added]:
         """Import every test in a folder, the oldest first; one that is refused is told, and the others come in.
 
         Raises
@@ -138,13 +204,13 @@ class History:
         StoreError
             If the history cannot be written.
         """
-        for test in in_order(tests_in(path)):
+        for test in in_order(paths_of_tests(path)):
             try:
-                yield self.add(test, machine=machine, date=date)
+                yield self.add(test, machine=machine, date=date, undated=written(test) if dates_of_files else "")
             except StoreError:
                 raise
             except ElastogeoError as error:
-                yield Added(test, None, str(error))
+                yield Added(test, None, error=str(error))
 
     def series(self, machine: str) -> tuple[KnownSeries, ...]:
         """The series of a machine, by name or serial number: its tests by one recipe each."""
@@ -175,7 +241,9 @@ class History:
         with read(self.store) as connection:
             key = series_named(connection, machine, series).key
             chosen = tests or choose(connection, key, first, last, *days)
-        return set_baseline(self.store, key, chosen, who=self.who, why=why)
+        found = set_baseline(self.store, key, chosen, who=self.who, why=why)
+        assess(self.store, key)
+        return found
 
     def kind(self, machine: str, indicator: str, series: str = "") -> Kind:
         """The kind of an indicator of a series: its unit, and from when on a change of it matters."""
@@ -211,12 +279,14 @@ class History:
         with read(self.store) as connection:
             key = series_named(connection, machine, series).key
         set_tolerance(self.store, key, indicator, Tolerance(lower, upper, relevance), who=self.who, why=why)
+        assess(self.store, key)
 
     def set_interval(self, machine: str, days: float | None, series: str = "", *, grace: float = 7.0, why: str = "") -> None:
         """Set how often a series is tested; None: no date."""
         with read(self.store) as connection:
             key = series_named(connection, machine, series).key
         set_interval(self.store, key, days, grace, who=self.who, why=why)
+        assess(self.store, key)
 
     def recompute(
         self, series: Iterable[int] | None = None, *, progress: Callable[[str], None] | None = None, jobs: int = 1
@@ -294,3 +364,47 @@ class History:
     def deliver(self) -> Delivery:
         """Send what is due, this week's digest included."""
         return alarms.deliver(self.store)
+
+    def watch(
+        self,
+        folder: str | Path,
+        *,
+        machine: str | None = None,
+        dates_of_files: bool = False,
+        once: bool = False,
+        again: bool = False,
+        settle: float = SETTLE,
+        every: float = EVERY,
+    ) -> Iterator[Seen[Added]]:
+        """Import every test of a folder when it is whole, and those that come; says what it sees.
+
+        Parameters
+        ----------
+        folder : str or Path
+            Into which the computer of an instrument writes; nothing in it is changed.
+        machine : str, optional
+            Of all its tests; without it, they say the serial number of theirs.
+        dates_of_files : bool
+            Whether a test that does not say its date counts as measured when its run files were last written.
+        once : bool
+            Whether to stop when all that is whole has come in.
+        again : bool
+            Whether to try again what was refused before.
+        settle, every : float [s]
+            Without a change after which a file counts as written; between two looks.
+        """
+        place = Path(folder).resolve()
+        name = hashlib.sha256(str(place).encode()).hexdigest()[:16]
+        notebook = Notebook(self.store.files.folder / "watched" / f"{name}.jsonl")
+        if again:
+            notebook.forget()
+
+        def bring(path: Path) -> Added:
+            return self.add(path, machine=machine, undated=written(path) if dates_of_files else "")
+
+        watch = Watch(place, bring, notebook, lambda: repr(self.machines()), settle, every)
+        return watch.run(once)
+
+
+def _was_suspect(connection: Connection, series: int, at: datetime) -> bool:
+    return judged(connection, series, at)[0].state == SUSPECT

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from elastogeo.discovery import first_use
 
 if TYPE_CHECKING:
-    from elastogeo.history.analyses.analysing import PROGRAM, analyse, last_analysis
+    from elastogeo.history.analyses.analysing import PROGRAM, analyse, last_analysis, unanalysed
     from elastogeo.history.analyses.kept_campaigns import (
         campaign_text,
         campaigns,
@@ -32,12 +32,13 @@ __all__ = [
     "read_plan",
     "recompute",
     "recompute_campaign",
+    "unanalysed",
 ]
 
 __getattr__ = first_use(
     __name__,
     {
-        "analysing": "PROGRAM analyse last_analysis",
+        "analysing": "PROGRAM analyse last_analysis unanalysed",
         "kept_campaigns": "campaign_text campaigns keep_campaign kept_campaign recompute_campaign",
         "kept_plans": "due_date finish_plan keep_plan plans read_plan",
         "recomputing": "outdated recompute",

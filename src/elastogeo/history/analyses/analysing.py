@@ -7,7 +7,7 @@ from sqlalchemy import Connection, insert, select
 from elastogeo.history.analyses.computation import Computed, computed
 from elastogeo.history.analyses.raw import raw_files
 from elastogeo.history.store import Store, audit, now, read, write
-from elastogeo.history.store.schema import analysis, indicator
+from elastogeo.history.store.schema import analysis, indicator, series
 from elastogeo.version import VERSION
 
 PROGRAM = "elastogeo"
@@ -55,6 +55,17 @@ def last_analysis(connection: Connection, test: int, software: str) -> int | Non
         .limit(1)
     )
     return connection.execute(found).scalar_one_or_none()
+
+
+def unanalysed(connection: Connection, counting: int, key: int) -> str:
+    """Why an analysis says nothing in its series: its error, or that the series counts with another version; else empty."""
+    row = connection.execute(select(analysis.c.error, analysis.c.software).where(analysis.c.id == key)).one()
+    counts = connection.execute(select(series.c.software).where(series.c.id == counting)).scalar_one()
+    if row.error:
+        return str(row.error)
+    if counts != row.software:
+        return f"the series counts with elastogeo {counts}, this is {row.software}: run elastogeo history recompute"
+    return ""
 
 
 def keep(store: Store, test: int, found: Computed, who: str) -> int:

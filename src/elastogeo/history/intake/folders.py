@@ -7,6 +7,7 @@ import tomllib
 from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 from elastogeo.errors import InputError
 from elastogeo.history.intake.days import day_of
@@ -18,7 +19,7 @@ MOST = 100_000
 _LATEST = datetime(9000, 1, 1, tzinfo=UTC)
 
 
-def tests_in(path: str | Path) -> tuple[Path, ...]:
+def paths_of_tests(path: str | Path) -> tuple[Path, ...]:
     """The tests that a path means.
 
     Parameters
@@ -41,7 +42,7 @@ def tests_in(path: str | Path) -> tuple[Path, ...]:
         raise InputError(f"{path}: is not there; check the path")
     if path.is_file() or any((path / name).is_file() for name in TESTS):
         return (path,)
-    found = tuple(_below(path))
+    found = tuple(folders_of_tests(path))
     if not found:
         raise InputError(
             f"{path}: holds no test: no folder in it has a {' or '.join(TESTS)}; make one beside the run files with "
@@ -50,7 +51,14 @@ def tests_in(path: str | Path) -> tuple[Path, ...]:
     return found
 
 
-def _below(path: Path) -> Iterator[Path]:
+def folders_of_tests(path: Path) -> Iterator[Path]:
+    """The folders with a test in and below a folder, in the order of their names; hidden ones are left out.
+
+    Raises
+    ------
+    InputError
+        If there are more than `MOST` folders.
+    """
     for looked, (place, folders, files) in enumerate(os.walk(path), 1):
         if looked > MOST:
             raise InputError(f"{path}: holds more than {MOST} folders; name one of them")
@@ -64,10 +72,37 @@ def in_order(paths: Iterable[Path]) -> tuple[Path, ...]:
     return tuple(sorted(paths, key=lambda path: (_date(path), str(path))))
 
 
+def strings_of(path: Path) -> tuple[str, ...]:
+    """All that the file of a test says in strings; nothing of one that cannot be read."""
+    found: list[str] = []
+    entries: list[Any] = [_table(path)]
+    while entries:
+        entry = entries.pop()
+        if isinstance(entry, str):
+            found.append(entry)
+        elif isinstance(entry, dict | list):
+            entries += entry.values() if isinstance(entry, dict) else entry
+    return tuple(sorted(found))
+
+
+def written(path: Path) -> str:
+    """When the last file of a test's folder was written, but for the test's own and hidden ones; empty if there is none."""
+    folder = path if path.is_dir() else path.parent
+    places = [Path(place) / name for place, _, files in os.walk(folder) for name in files]
+    times = [place.stat().st_mtime for place in places if place.suffix != ".toml" and not place.name.startswith(".")]
+    return datetime.fromtimestamp(max(times), UTC).isoformat(timespec="seconds") if times else ""
+
+
 def _date(path: Path) -> str:
+    try:
+        return day_of(str(_table(path)["about"]["date"]).replace(" ", "T"), "", _LATEST).at.isoformat()
+    except (KeyError, TypeError, InputError):
+        return "~"
+
+
+def _table(path: Path) -> dict[str, Any]:
     file = next((path / name for name in TESTS if (path / name).is_file()), path)
     try:
-        about = tomllib.loads(file.read_text("utf-8-sig")).get("about", {})
-        return day_of(str(about["date"]).replace(" ", "T"), "", _LATEST).at.isoformat()
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, InputError):
-        return "~"
+        return tomllib.loads(file.read_text("utf-8-sig"))
+    except (OSError, ValueError, RecursionError):
+        return {}

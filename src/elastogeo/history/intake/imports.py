@@ -6,7 +6,7 @@ once make one test. Files are kept before the database names them: a crash betwe
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -21,7 +21,7 @@ from elastogeo.history.intake.days import Day, day_of
 from elastogeo.history.intake.instruments import instrument_of, overdue
 from elastogeo.history.intake.machines import KnownMachine, machine_named, machine_of
 from elastogeo.history.intake.recipes import Recipe, alike, differing, origin_of, recipe_of
-from elastogeo.history.intake.repeats import repeated_by
+from elastogeo.history.intake.repeats import WasSuspect, repeated_by
 from elastogeo.history.store import Store, audit, now, read, write
 from elastogeo.history.store.schema import baseline, blob, machine, series, set_aside, test, test_file
 from elastogeo.machine import About
@@ -73,7 +73,9 @@ def import_test(
     who: str,
     repeats: str | int | None = None,
     date: str = "",
+    undated: str = "",
     about: About | None = None,
+    was_suspect: WasSuspect | None = None,
 ) -> Imported:
     """Import one test.
 
@@ -90,8 +92,12 @@ def import_test(
         The test that this one repeats: its key, `last`, or `none`; without it, it is found where the series waits for one.
     date : str
         When it was measured, if the test does not say it.
+    undated : str
+        When it counts as measured if neither says it.
     about : About, optional
         In place of the test's own: what a campaign adds to it.
+    was_suspect : callable, optional
+        As of `repeated_by`.
 
     Raises
     ------
@@ -110,7 +116,7 @@ def import_test(
         known = _known(connection, sha256, machine, found)
         if known:
             return known
-        day = _day(found, about, date)
+        day = _day(found, about, date, undated)
         machine_of(connection, machine, about.machine_serial.strip(), str(found.path))
     _keep(store, found)
     with write(store) as connection:
@@ -118,7 +124,10 @@ def import_test(
         if known:
             return known
         of = machine_of(connection, machine, about.machine_serial.strip(), str(found.path))
-        return _write(connection, found, about, sha256, day, of, who, repeats)
+        return _write(
+            connection, found, about, sha256, day, of, who,
+            lambda key, at: repeated_by(connection, key, at, repeats, was_suspect),
+        )  # fmt: skip
 
 
 def _known(connection: Connection, sha256: str, named: str | None, found: TestWithFiles) -> Imported | None:
@@ -153,18 +162,18 @@ def _known(connection: Connection, sha256: str, named: str | None, found: TestWi
     )
 
 
-def _day(found: TestWithFiles, about: About, date: str) -> Day:
+def _day(found: TestWithFiles, about: About, date: str, undated: str) -> Day:
     if about.date:
         said = day_of(about.date, f"{found.path}: date under [about]", now())
         if date and day_of(date, "--date", now()).at.date() != said.at.date():
             raise InputError(f"{found.path}: says that it was measured on {about.date}, not on {date}; leave --date out")
         return said
-    if not date:
+    if not (date or undated):
         raise InputError(
             f"{found.path}: does not say when it was measured; write date = 2026-03-01 under [about], or with time and zone "
             f"2026-03-01T14:30:00+01:00; or give --date"
         )
-    return day_of(date, "--date", now())
+    return day_of(date or undated, "--date" if date else f"{found.path}: when its files were written", now())
 
 
 def _keep(store: Store, found: TestWithFiles) -> None:
@@ -183,14 +192,14 @@ def _write(
     day: Day,
     of: KnownMachine,
     who: str,
-    repeats: str | int | None,
+    repeat: Callable[[int, datetime], tuple[int | None, bool]],
 ) -> Imported:
     """The rows of a test that is new."""
     read_test = found.test
     key, series_name, new_series, said = _series(connection, of, recipe_of(read_test), who)
     at = _after_those_of_the_day(connection, key, day)
     instrument, note = instrument_of(connection, about, _kind(found), (place for place, _ in found.files.values()), who)
-    repeated, by_itself = repeated_by(connection, key, at, repeats)
+    repeated, by_itself = repeat(key, at)
     row = {
         "series": key,
         "sha256": sha256,

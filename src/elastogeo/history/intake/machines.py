@@ -12,6 +12,10 @@ from elastogeo.history.store import Store, audit, now, write
 from elastogeo.history.store.schema import machine
 
 
+class UnplacedError(InputError):
+    """The history does not know the machine that a test is of: once it does, the test can come in as it is."""
+
+
 @dataclass(frozen=True, slots=True)
 class KnownMachine:
     """A machine of the history.
@@ -74,7 +78,7 @@ def machine_named(connection: Connection, asked: str) -> KnownMachine:
 
     Raises
     ------
-    InputError
+    UnplacedError
         If there is none; the message names those that are near, and how to add one.
     """
     found = _where(connection, name=asked.strip()) or (asked.strip() and _where(connection, serial=asked.strip())) or []
@@ -83,7 +87,7 @@ def machine_named(connection: Connection, asked: str) -> KnownMachine:
     names = [one.name for one in _where(connection)]
     near = get_close_matches(asked, names, n=1)
     there = f"did you mean {near[0]!r}?" if near else f"there are: {several(names)}" if names else "there is none yet"
-    raise InputError(f"the history has no machine {asked!r}; {there}; add one with: elastogeo history machine {asked!r}")
+    raise UnplacedError(f"the history has no machine {asked!r}; {there}; add one with: elastogeo history machine {asked!r}")
 
 
 def machine_of(connection: Connection, named: str | None, serial: str, where: str) -> KnownMachine:
@@ -100,20 +104,22 @@ def machine_of(connection: Connection, named: str | None, serial: str, where: st
 
     Raises
     ------
+    UnplacedError
+        If neither says it, or there is no such machine.
     InputError
-        If neither says it, there is no such machine, or the two contradict each other.
+        If the two contradict each other.
     """
     if named is None:
         if not serial:
             names = [one.name for one in _where(connection)]
             there = f" (there are: {several(names)})" if names else ""
-            raise InputError(
+            raise UnplacedError(
                 f"{where}: does not say which machine it is of; give --machine NAME{there}, or write machine_serial under "
                 f"[about]"
             )
         found = _where(connection, serial=serial)
         if not found:
-            raise InputError(
+            raise UnplacedError(
                 f"{where}: is of the machine with the serial number {serial!r}, which no machine of the history has; add it "
                 f"with: elastogeo history machine NAME --serial {serial!r}"
             )

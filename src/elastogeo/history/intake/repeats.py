@@ -7,14 +7,17 @@ half of the usual interval of the series. A day's grace holds for those that tes
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from datetime import datetime, timedelta
 
 import numpy as np
 from sqlalchemy import Connection, select
 
-from elastogeo.changes import SUSPECT, Rule
+from elastogeo.changes import ALARM, SUSPECT, Rule
 from elastogeo.errors import InputError
 from elastogeo.history.store.schema import series_state, set_aside, test
+
+WasSuspect = Callable[[Connection, int, datetime], bool]
 
 LAST = "last"
 NONE = "none"
@@ -26,7 +29,9 @@ LEAST = timedelta(days=1)
 _LOOKED_AT = 12
 
 
-def repeated_by(connection: Connection, series: int, at: datetime, asked: str | int | None) -> tuple[int | None, bool]:
+def repeated_by(
+    connection: Connection, series: int, at: datetime, asked: str | int | None, was_suspect: WasSuspect | None = None
+) -> tuple[int | None, bool]:
     """The test that a new one repeats.
 
     Parameters
@@ -37,6 +42,9 @@ def repeated_by(connection: Connection, series: int, at: datetime, asked: str | 
         When the new one was measured.
     asked : str, int or None
         `last`: the last test of the series; `none`; the key of a test; None: found by itself.
+    was_suspect : callable, optional
+        `was_suspect(connection, series, at)`: whether the series waited for a repeat on that day. It is asked where the
+        series is in alarm now: a suspect test and its repeat may both come in late, when the wait is over.
 
     Returns
     -------
@@ -54,9 +62,9 @@ def repeated_by(connection: Connection, series: int, at: datetime, asked: str | 
         return None, False
     last = _last(connection, series)
     if asked is None:
-        waits = last is not None and _is_suspect(connection, series)
-        found = waits and last is not None and timedelta() <= at - last[1] <= _longest(connection, series)
-        return (last[0] if found and last is not None else None), True
+        near = last is not None and timedelta() <= at - last[1] <= _longest(connection, series)
+        found = near and _is_suspect(connection, series, at, was_suspect)
+        return (last[0] if last is not None and found else None), True
     if asked == LAST and last is None:
         raise InputError("the series has no test yet that this one could repeat; leave --repeats out")
     key = last[0] if asked == LAST and last is not None else _key(asked)
@@ -75,9 +83,9 @@ def _key(asked: str | int) -> int:
         raise InputError(f"--repeats is {asked!r}; give last, none, or the number of a test") from None
 
 
-def _is_suspect(connection: Connection, series: int) -> bool:
+def _is_suspect(connection: Connection, series: int, at: datetime, was_suspect: WasSuspect | None) -> bool:
     state = connection.execute(select(series_state.c.state).where(series_state.c.series == series)).scalar()
-    return state == SUSPECT
+    return state == SUSPECT or (state == ALARM and was_suspect is not None and was_suspect(connection, series, at))
 
 
 def _last(connection: Connection, series: int) -> tuple[int, datetime] | None:

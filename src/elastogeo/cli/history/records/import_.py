@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -13,7 +14,11 @@ import elastogeo as eg
 from elastogeo.cli.options import STORE, AsJson, Store, Who
 
 if TYPE_CHECKING:
+    from elastogeo.changes import ChangeVerdict
     from elastogeo.history import Added
+
+SUSPECT, ALARM = "suspect", "alarm"
+"""States of a series of which more is said than their name."""
 
 Machine = Annotated[str | None, typer.Option("--machine", "-m", help="The machine, by name; else as the test says.")]
 
@@ -50,7 +55,7 @@ def import_(
             for one in added:
                 found.append(one)
                 if not as_json:
-                    _tell(one)
+                    _tell(one, found[:-1])
     refused = [one for one in found if one.error]
     if as_json:
         screen.show_json({"schema": "elastogeo.imports/1", "tests": [_document(one) for one in found]})
@@ -61,28 +66,51 @@ def import_(
         raise typer.Exit(2)
 
 
-def _tell(one: Added) -> None:
+def _tell(one: Added, before: Sequence[Added]) -> None:
+    """Say what became of a test; what its machine has, only where that is new."""
     from elastogeo.cli import screen
 
-    for line in lines_of(one):
+    told = {earlier.imported.series: _state(earlier) for earlier in before if earlier.imported}
+    same = one.imported is not None and told.get(one.imported.series) == _state(one)
+    for line in lines_of(one, brief=same):
         if one.error:
             print(f"elastogeo: {line}", file=sys.stderr, flush=True)
         else:
             screen.say(line)
 
 
-def lines_of(one: Added) -> list[str]:
-    """What became of a test, in lines for a person."""
+def lines_of(one: Added, brief: bool = False) -> list[str]:
+    """What became of a test, in lines for a person; `brief` leaves out what its machine has."""
     got = one.imported
     if got is None:
         return [one.error]
     known = "" if got.new else " is known, nothing was changed"
-    head = f"Test {got.test}{known}: {got.name}, {got.machine}, {got.at:%Y-%m-%d}, {got.series_name}"
-    return [head, *(f"  {note}" for note in got.notes)]
+    state = f": {_state(one)}" if one.verdict else ""
+    head = f"Test {got.test}{known}: {got.name}, {got.machine}, {got.at:%Y-%m-%d}, {got.series_name}{state}"
+    tells = one.verdict is not None and not brief and _state(one) in (SUSPECT, ALARM)
+    told = _sentence(one.verdict) if one.verdict is not None and tells else ""
+    unanalysed = f"it says nothing in its series: {one.unanalysed}" if one.unanalysed else ""
+    return [head, *(f"  {note}" for note in (told, unanalysed, *got.notes) if note)]
+
+
+def _state(one: Added) -> str:
+    return "" if one.verdict is None else one.verdict.state
+
+
+def _sentence(verdict: ChangeVerdict) -> str:
+    from elastogeo.report import view_of
+
+    return view_of(verdict).sentence
 
 
 def _document(one: Added) -> dict[str, Any]:
     got = one.imported
     if got is None:
         return {"path": str(one.path), "error": one.error}
-    return {"path": str(one.path), **asdict(got), "at": got.at.isoformat()}
+    return {
+        "path": str(one.path),
+        **asdict(got),
+        "at": got.at.isoformat(),
+        "state": _state(one),
+        "unanalysed": one.unanalysed,
+    }
