@@ -32,6 +32,7 @@ PARTS = {
     0: "## Ball bar: the verdict of an identification",
     1: "## Models, physics, intervals",
     2: "## Other tests",
+    3: "## Test after test: the charts of a series",
 }
 
 

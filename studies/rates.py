@@ -41,7 +41,8 @@ Judge = Callable[[Any], str]
 class Sample(Protocol):
     """Something to draw: hashable, and its `repr` says all that it depends on, since its seeds come from that.
 
-    A class whose draws take long may have a `share`: of the draws that its cells get otherwise.
+    A class whose draws take long may have a `share`: of the draws that its cells get otherwise; one that draws many at once
+    a `part`: how many one process makes at a time.
     """
 
     def draw(self, seed: tuple[int, ...]) -> object:
@@ -159,7 +160,7 @@ class Study:
         What it is held to, and what it cannot see: for the reader of the page.
     cells : tuple of Cell
     order : int
-        Of the page: 0 for the verdict of a ball bar test, 1 for what stands beside it, 2 for other tests.
+        Of the page: 0 for the verdict of a ball bar test, 1 for what stands beside it, 2 for other tests, 3 for series.
     """
 
     check: str
@@ -287,10 +288,11 @@ def rates(wanted: Sequence[Cell], trials: Callable[[Cell], int], workers: int = 
     for cell in wanted:
         by_sample.setdefault(cell.sample, []).append(cell)
     jobs = [
-        (sample, tuple((cell.judge, trials(cell)) for cell in group), range(first, min(first + PART, most)))
+        (sample, tuple((cell.judge, trials(cell)) for cell in group), range(first, min(first + part, most)))
         for sample, group in by_sample.items()
         for most in [max(map(trials, group))]
-        for first in range(0, most, PART)
+        for part in [int(getattr(type(sample), "part", PART))]
+        for first in range(0, most, part)
     ]
     counted: dict[Sample, list[Counter[str]]] = {s: [Counter() for _ in group] for s, group in by_sample.items()}
     for (sample, _, _), words in _done(jobs, workers):

@@ -58,6 +58,7 @@ from elastogeo.discovery import first_use
 
 if TYPE_CHECKING:
     from elastogeo.changes.indicators import indicators_of, signatures_of
+    from elastogeo.changes.trials import FaultFound, RuleTest, try_rule
 from elastogeo.changes.series import MOST
 
 __all__ = [
@@ -90,6 +91,7 @@ __all__ = [
     "Drift",
     "DueDate",
     "Event",
+    "FaultFound",
     "FleetState",
     "Indicator",
     "IndicatorState",
@@ -107,6 +109,7 @@ __all__ = [
     "RecomputedTest",
     "Reference",
     "Rule",
+    "RuleTest",
     "Running",
     "Series",
     "Signatures",
@@ -133,6 +136,7 @@ __all__ = [
     "start",
     "step",
     "trail_whole",
+    "try_rule",
 ]
 
-__getattr__ = first_use(__name__, {"indicators": "indicators_of signatures_of"})
+__getattr__ = first_use(__name__, {"indicators": "indicators_of signatures_of", "trials": "FaultFound RuleTest try_rule"})
