@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -52,7 +53,7 @@ class Pair(ByValue):
     exchanges: Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Ceiling(ByValue):
     """What tests between tool and workpiece can tell of the compliances of a machine, at most.
 
@@ -73,12 +74,12 @@ class Ceiling(ByValue):
     reciprocal: bool
     held: Mapping[str, float]
 
-    @property
+    @cached_property
     def labels(self) -> tuple[str, ...]:
         """The names of the compliances."""
         return tuple(source.name for source in self.sources)
 
-    @property
+    @cached_property
     def scales(self) -> Array:
         """The size that each is expected to have, shape (p,), in its unit: what a direction is small against."""
         return parameter_scales(self.sources)
@@ -88,7 +89,7 @@ class Ceiling(ByValue):
         """How many compliances there are."""
         return len(self.sources)
 
-    @property
+    @cached_property
     def kernel(self) -> Array:
         """What no test sees, shape (k, p): a basis, each row a change of the compliances in their units."""
         return np.vstack([np.zeros((0, self.columns)), *(pair.exchanges for pair in self.pairs)])
@@ -135,14 +136,15 @@ class Ceiling(ByValue):
         return tuple(group for group in groups if len(group) > 1)
 
     def _places_of(self, names: Collection[str]) -> list[int]:
-        unknown = [name for name in names if name not in self.labels]
+        place = {label: k for k, label in enumerate(self.labels)}
+        unknown = [name for name in names if name not in place]
         if unknown:
             raise InputError(
                 f"{', '.join(unknown)}: no compliance of a joint of this machine"
                 + (" (of a reciprocal pair the name of the one that stands for both)" if self.reciprocal else "")
                 + f"; they are {self.labels[0]} to {self.labels[-1]}"
             )
-        return [self.labels.index(name) for name in dict.fromkeys(names)]
+        return [place[name] for name in dict.fromkeys(names)]
 
 
 def ceiling(machine: Machine, reciprocal: bool = False, held: Mapping[str, float] | None = None) -> Ceiling:

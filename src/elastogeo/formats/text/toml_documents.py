@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from datetime import date
 from difflib import get_close_matches
+from functools import cache
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import Annotated, Any, TypeVar, Union, cast, get_args, get_origin, get_type_hints
@@ -91,12 +92,12 @@ def _built(kind: Any, table: Any, path: str, problems: list[str]) -> Any:
     """The dataclass, or `_WRONG` with what is wrong added to `problems`."""
     before = len(problems)
     values = _internal(kind, table, path, problems)
-    hints = get_type_hints(kind)
+    hints, marked = _hints(kind)
     for field in fields(kind):
         if field.name in values and not _is_wrong(values[field.name]):
             problems.extend(_type_problems(hints[field.name], values[field.name], f"{path}{field.name}"))
         elif field.name not in values and field.default is MISSING and field.default_factory is MISSING:
-            unit = unit_of(get_type_hints(kind, include_extras=True)[field.name])
+            unit = unit_of(marked[field.name])
             problems.append(f"{path}{_spelled(field.name, unit)} is missing")
     if len(problems) > before:
         return _WRONG
@@ -119,7 +120,7 @@ def _type_problems(hint: Any, value: Any, at: str) -> list[str]:
     if value is None:
         return []
     try:
-        TypeAdapter(hint).validate_python(value, strict=True)
+        _checked_as(hint).validate_python(value, strict=True)
     except ValidationError as error:
         return [
             f"{'.'.join([at, *map(str, found['loc'])])}: {found['msg'].lower()}, got {found['input']!r:.60}"
@@ -128,12 +129,24 @@ def _type_problems(hint: Any, value: Any, at: str) -> list[str]:
     return []
 
 
+@cache
+def _hints(kind: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The types of the fields of a dataclass, without and with their units."""
+    return get_type_hints(kind), get_type_hints(kind, include_extras=True)
+
+
+@cache
+def _checked_as(hint: Any) -> TypeAdapter[Any]:
+    """What checks values of a type: to make it takes longer than to read a test."""
+    return TypeAdapter(hint)
+
+
 def _internal(kind: Any, table: Any, path: str, problems: list[str]) -> dict[str, Any]:
     """Values by field, in the units of the house; what is wrong is added to `problems`."""
     if not isinstance(table, Mapping):
         problems.append(f"{path.rstrip('.') or 'the document'} must be a table, got {table!r:.60}")
         return {}
-    hints, marked = get_type_hints(kind), get_type_hints(kind, include_extras=True)
+    hints, marked = _hints(kind)
     units = {field.name: unit_of(marked[field.name]) for field in fields(kind)}
     values: dict[str, Any] = {}
     for key, value in table.items():

@@ -53,6 +53,7 @@ def identification_view(result: Identification) -> View:
     """All that is shown of an identification."""
     campaign = result.campaign
     document = identification_json(result)
+    inseparable = inseparable_words(campaign, result.confounding)
     return View(
         kind="Identification",
         title=campaign.machine.name,
@@ -70,12 +71,12 @@ def identification_view(result: Identification) -> View:
         notes=(
             *together_words(result),
             *stands_for(result),
-            *inseparable_words(campaign, result.confounding),
+            *inseparable,
             *recovered_words(result),
             *log_words(campaign),
             *own_results_words(campaign),
         ),
-        sections=tuple(_sections(result)),
+        sections=tuple(_sections(result, inseparable)),
     )
 
 
@@ -165,7 +166,7 @@ def stands_for(result: Identification) -> tuple[str, ...]:
     )
 
 
-def _sections(result: Identification) -> Iterator[Section]:
+def _sections(result: Identification, inseparable: tuple[str, ...]) -> Iterator[Section]:
     one = not result.campaign.several
     if not one:
         yield Section("The tests", together_words(result), tables=(test_table(result), information_table(result)))
@@ -190,7 +191,7 @@ def _sections(result: Identification) -> Iterator[Section]:
     yield from collinear_section(result)
     if result.repeats is not None:
         yield _repeats(result, result.repeats)
-    yield _confounding(result)
+    yield _confounding(result, inseparable)
     yield _method(result)
     yield Section("What to keep in mind", points=tuple(map(pretty, keep_in_mind(result))))
     yield from files_section(result.campaign)
@@ -278,7 +279,7 @@ def _repeats(result: Identification, repeats: Repeatability) -> Section:
     )
 
 
-def _confounding(result: Identification) -> Section:
+def _confounding(result: Identification, inseparable: tuple[str, ...]) -> Section:
     found = result.confounding
     whole = found.rank == len(found.labels)
     rows = tuple(
@@ -300,7 +301,7 @@ def _confounding(result: Identification) -> Section:
     tables = (Table(("parameter", "stands for"), rows, words=(0, 1)), facts) if rows else (facts,)
     return Section(
         f"What this test {'distinguishes' if whole else 'cannot distinguish'}",
-        tuple(map(pretty, (*confounding_words(found), *inseparable_words(result.campaign, found)))),
+        tuple(map(pretty, (*confounding_words(found), *inseparable))),
         (picture("patterns", result),) if not result.campaign.several else (),
         tables,
     )
