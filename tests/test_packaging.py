@@ -65,6 +65,7 @@ def test_the_wheel_runs_where_no_source_is(wheel: Path, tmp_path: Path) -> None:
     assert "The thesis's loaded ball bar" in test
     assert run(tmp_path, scripts / "elastogeo", "--version").startswith("elastogeo ")
     assert json.loads(run(tmp_path, scripts / "elastogeo", "machines", "hermle_c50", "--json"))
+    assert run(tmp_path, scripts / "elastogeo", "history", "init").startswith("Made: history.db")
 
 
 @pytest.mark.nightly

@@ -50,7 +50,8 @@ def test_the_same_again_writes_nothing(kept: Files, monkeypatch: pytest.MonkeyPa
     def refuse(*_: object) -> None:
         raise AssertionError("something was written")
 
-    monkeypatch.setattr(files.os, "fsync", refuse)
+    monkeypatch.setattr(files, "_write", refuse)
+    monkeypatch.setattr(files.os, "replace", refuse)
     assert kept.put(b"742 N") == sha256
     assert os.stat(kept.path(sha256)) == before
 
@@ -98,23 +99,27 @@ def fails_at(monkeypatch: pytest.MonkeyPatch, module: object, name: str, call: i
 
 
 @pytest.mark.parametrize("code", [errno.ENOSPC, errno.EIO])
-@pytest.mark.parametrize(("module", "name", "calls"), [(os, "fsync", 2), (os, "replace", 2), (Path, "mkdir", 3)])
+@pytest.mark.parametrize(
+    ("module", "name", "calls"), [(os, "fsync", 5), (os, "replace", 2), (Path, "mkdir", 3), (os, "fchmod", 2)]
+)
 def test_a_disk_that_is_full_or_fails_leaves_nothing_half(
     kept: Files, monkeypatch: pytest.MonkeyPatch, module: object, name: str, calls: int, code: int
 ) -> None:
     before = kept.put(b"before")
+    whole = {before}
     for call in range(1, calls + 1):
+        both = [b"one %d" % call, b"two %d" % call]
         with monkeypatch.context() as patch:
             fails_at(patch, module, name, call, code)
             with pytest.raises(StoreError, match=f"{os.strerror(code)}; nothing was kept of it") as refused:
-                kept.put_all([b"one", b"two"])
+                kept.put_all(both)
         assert ("free some room" in str(refused.value)) is (code == errno.ENOSPC)
-        whole = {hashlib.sha256(content).hexdigest() for content in (b"before", b"one", b"two")}
+        whole |= {hashlib.sha256(content).hexdigest() for content in both}
         assert set(kept.all()) <= whole
         assert all(kept.read(sha256) for sha256 in kept.all())
         assert before in kept.all()
         assert list((kept.folder / "incoming").iterdir()) == []
-    assert [kept.read(sha256) for sha256 in kept.put_all([b"one", b"two"])] == [b"one", b"two"]
+        assert [kept.read(sha256) for sha256 in kept.put_all(both)] == both
 
 
 def test_a_write_that_fails_in_the_middle_leaves_nothing(kept: Files, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -58,16 +58,38 @@ class Files:
         return self.put_all([source])[0]
 
     def put_all(self, sources: Iterable[Path | bytes]) -> tuple[str, ...]:
-        """Keep several files, their SHA-256 in the same order; all are on the disk when this returns."""
-        hashes = []
-        touched: set[Path] = set()
-        for source in sources:
-            sha256 = _hash_of(source)
-            hashes.append(sha256)
-            if not self._is_whole(sha256):
-                touched |= self._write(source, sha256)
-        for folder in touched:
-            _flush_folder(folder)
+        """Keep several files, their SHA-256 in the same order; all are on the disk when this returns.
+
+        All are written before the first is flushed, and renamed before the folders are: the disk then flushes them together.
+
+        Raises
+        ------
+        StoreError
+            As `put`; some may be kept then, each whole.
+        """
+        hashes: list[str] = []
+        incoming: dict[str, Path] = {}
+        try:
+            for source in sources:
+                sha256 = _hash_of(source)
+                hashes.append(sha256)
+                if sha256 not in incoming and not self._is_whole(sha256):
+                    incoming[sha256] = self._incoming()
+                    _write(source, incoming[sha256], sha256)
+            for path in incoming.values():
+                _flush(path)
+            for sha256, path in incoming.items():
+                self.path(sha256).parent.mkdir(exist_ok=True)
+                os.replace(path, self.path(sha256))
+            for folder in {self.folder, *(self.path(sha256).parent for sha256 in hashes)}:
+                _flush_folder(folder)  # of what was there already too: who put it may have been killed before
+        except OSError as error:
+            todo = "; free some room, then repeat" if error.errno in _NO_ROOM else ""
+            raise StoreError(f"{error.filename or self.folder}: {error.strerror}; nothing was kept of it{todo}") from error
+        finally:
+            for path in incoming.values():
+                with suppress(OSError):
+                    path.unlink(missing_ok=True)
         return tuple(hashes)
 
     def path(self, sha256: str) -> Path:
@@ -120,35 +142,34 @@ class Files:
         except StoreError:
             return False
 
-    def _write(self, source: Path | bytes, sha256: str) -> set[Path]:
-        """Write a file in its place; the folders whose entries changed."""
-        path = self.path(sha256)
+    def _incoming(self) -> Path:
+        """A name for a file until it is whole."""
         if not self.folder.is_dir():
             raise StoreError(f"{self.folder}: the folder of the raw files is not there; put it back, or name where it is")
-        made = {path.parent} if path.parent.is_dir() else {path.parent, self.folder}
-        incoming = self.folder / _INCOMING / secrets.token_hex(16)
-        try:
-            incoming.parent.mkdir(exist_ok=True)
-            path.parent.mkdir(exist_ok=True)
-            digest = hashlib.sha256()
-            with open(incoming, "xb") as file:
-                for block in _blocks(source):
-                    digest.update(block)
-                    file.write(block)
-                file.flush()
-                os.fsync(file.fileno())
-                if os.name == "posix":
-                    os.fchmod(file.fileno(), 0o444)  # nobody changes it by chance
-            if digest.hexdigest() != sha256:
-                raise StoreError(f"{source!s}: changed while it was read; import it again when it is whole")
-            os.replace(incoming, path)
-        except OSError as error:
-            todo = "; free some room, then repeat" if error.errno in _NO_ROOM else ""
-            raise StoreError(f"{error.filename or path}: {error.strerror}; nothing was kept of it{todo}") from error
-        finally:
-            with suppress(OSError):
-                incoming.unlink(missing_ok=True)
-        return made
+        folder = self.folder / _INCOMING
+        folder.mkdir(exist_ok=True)
+        return folder / secrets.token_hex(16)
+
+
+def _write(source: Path | bytes, path: Path, sha256: str) -> None:
+    digest = hashlib.sha256()
+    with open(path, "xb") as file:
+        for block in _blocks(source):
+            digest.update(block)
+            file.write(block)
+        if os.name == "posix":
+            os.fchmod(file.fileno(), 0o444)  # nobody changes it by chance
+    if digest.hexdigest() != sha256:
+        raise StoreError(f"{source!s}: changed while it was read; import it again when it is whole")
+
+
+def _flush(path: Path) -> None:
+    """Let the content of a file reach the disk."""
+    descriptor = os.open(path, os.O_RDONLY if os.name == "posix" else os.O_RDWR)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
 
 
 def _hash_of(source: Path | bytes) -> str:
@@ -181,10 +202,5 @@ def _check_size(name: str, size: int) -> None:
 
 def _flush_folder(folder: Path) -> None:
     """Let the entries of a folder reach the disk; Windows has no such call, and keeps them itself."""
-    if os.name != "posix":
-        return
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
+    if os.name == "posix":
+        _flush(folder)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
-from sqlalchemy import Connection, Engine, text
+from sqlalchemy import Connection, Engine
 
 from elastogeo.errors import StoreError
 from elastogeo.history.extra import needs_history_extra
@@ -17,7 +17,7 @@ from elastogeo.history.store import audit
 from elastogeo.history.store.files import Files
 from elastogeo.history.store.migrations import check_revision, upgrade
 from elastogeo.history.store.place import Place, place_of
-from elastogeo.history.store.postgresql import LOCK, server_engine
+from elastogeo.history.store.postgresql import server_engine, take_turn
 from elastogeo.history.store.refusals import in_words
 from elastogeo.history.store.sqlite import check_drive, driver, sqlite_engine
 
@@ -131,7 +131,7 @@ def _writing(store: Store, migrates: bool = False) -> Iterator[Connection]:
         connection.execution_options(writes=True, migrates=migrates)
         with connection.begin():
             if connection.dialect.name == "postgresql":
-                connection.execute(text("SELECT pg_advisory_xact_lock(:lock)"), {"lock": LOCK})
+                take_turn(connection)
             yield connection
 
 

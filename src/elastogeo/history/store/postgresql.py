@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sqlalchemy import URL, Engine, create_engine
+from sqlalchemy import URL, Connection, Engine, create_engine, func, select
 
 LOCK = 0x656C6173746F
 """The advisory lock of whoever writes a history: one at a time, as on SQLite."""
@@ -12,5 +12,13 @@ WAIT = 30.0
 
 def server_engine(server: URL) -> Engine:
     """The engine of a database; a connection that was cut while it rested is made again."""
-    settings = {"connect_timeout": 10, "options": f"-c lock_timeout={WAIT * 1000:.0f}"}
-    return create_engine(server, pool_size=4, pool_pre_ping=True, connect_args=settings)
+    return create_engine(
+        server, pool_size=4, pool_pre_ping=True, isolation_level="READ COMMITTED", connect_args={"connect_timeout": 10}
+    )
+
+
+def take_turn(connection: Connection) -> None:
+    """Wait for whoever writes, and see what he wrote; what is committed is on the disk, whatever the server's default."""
+    settings = {"lock_timeout": f"{WAIT * 1000:.0f}", "synchronous_commit": "on"}
+    connection.execute(select(*(func.set_config(name, value, True) for name, value in settings.items())))
+    connection.execute(select(func.pg_advisory_xact_lock(LOCK)))
