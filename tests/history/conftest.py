@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
 from itertools import count
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -24,6 +25,30 @@ from elastogeo.history.store import Files, Store, clock, open_store
 KINDS = ("truncate", "wal", "postgresql")
 _FILES = "ELASTOGEO_FILES"
 _DRIVER = "ELASTOGEO_SQLITE"
+
+_END = "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = %s AND pid <> %s"
+_SHAPE = """
+SELECT (SELECT string_agg(attrelid::text || attname || atttypid::text, ',' ORDER BY attrelid, attnum) FROM pg_attribute
+        WHERE attrelid IN (SELECT oid FROM pg_class WHERE relnamespace = 'public'::regnamespace)),
+       (SELECT string_agg(oid::text || tgname || tgenabled::text, ',' ORDER BY oid) FROM pg_trigger WHERE NOT tgisinternal),
+       (SELECT string_agg(version_num, ',') FROM schema_version)
+"""
+_HEAD = "SELECT number, sha256 FROM audit_head"
+_EMPTY = "SELECT emptied(%s, %s)"
+_EMPTIES = """
+CREATE FUNCTION emptied(last bigint, seal text) RETURNS void LANGUAGE plpgsql SET session_replication_role = replica AS $$
+DECLARE one record;
+BEGIN
+    FOR one IN SELECT relname FROM pg_class WHERE relnamespace = 'public'::regnamespace AND relkind = 'r'
+               AND relname NOT IN ('schema_version', 'audit', 'audit_head') LOOP
+        EXECUTE format('DELETE FROM %I', one.relname);
+    END LOOP;
+    DELETE FROM audit WHERE number > last;
+    UPDATE audit_head SET number = last, sha256 = seal;
+    PERFORM setval(oid::regclass, 1, false) FROM pg_class WHERE relnamespace = 'public'::regnamespace AND relkind = 'S';
+END $$
+"""
+"""Empties a history behind the back of what freezes it; its own name and place are no table."""
 
 
 class Server:
@@ -43,12 +68,37 @@ class Server:
         self._admin.execute("ALTER SYSTEM SET fsync = off")
         self._admin.execute("SELECT pg_reload_conf()")
         self._numbers = count(1)
+        self._psycopg = psycopg
+        self._lent: dict[str, Any] = {}
+        self._resting: list[str] = []
 
     def database(self, template: str = "template0") -> str:
         """The name of a new database."""
         name = f"test{next(self._numbers)}"
         self._admin.execute(f"CREATE DATABASE {name} TEMPLATE {template}")
         return name
+
+    def lend(self, template: str) -> str:
+        """The name of a database that is as its template, one that a test gave back if there is one."""
+        if not self._resting:
+            name = self.database(template)
+            inside = self._psycopg.connect(self.url(name), autocommit=True)
+            inside.execute(_EMPTIES)
+            self._lent[name] = inside, inside.execute(_SHAPE).fetchone(), inside.execute(_HEAD).fetchone()
+            return name
+        return self._resting.pop()
+
+    def give_back(self, name: str) -> None:
+        """Empty a database, which takes a tenth of the time of making one; drop one whose tables were changed."""
+        inside, shape, head = self._lent[name]
+        self._admin.execute(_END, (name, inside.info.backend_pid))
+        if inside.execute(_SHAPE).fetchone() != shape:
+            del self._lent[name]
+            inside.close()
+            self.drop(name)
+            return
+        inside.execute(_EMPTY, head)
+        self._resting.append(name)
 
     def url(self, name: str) -> str:
         return self._uri.replace(":@/postgres?", f"@/{name}?")
@@ -58,6 +108,8 @@ class Server:
 
     def stop(self) -> None:
         """At once: what it holds is thrown away."""
+        for inside, *_ in self._lent.values():
+            inside.close()
         self._admin.close()
         server = self._server.get_postmaster_info().process
         server.send_signal(signal.SIGQUIT)
@@ -136,12 +188,12 @@ def store(url: str) -> Iterator[Store]:
 def _place(kind: str, whole: bool, folder: Path, patch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> Iterator[str]:
     if kind == "postgresql":
         server: Server = request.getfixturevalue("server")
-        name = server.database(request.getfixturevalue("made")[kind] if whole else "template0")
+        name = server.lend(request.getfixturevalue("made")[kind]) if whole else server.database()
         patch.setenv(_FILES, str(folder / "files"))
         if whole:
             Files(folder / "files").make()
         yield server.url(name)
-        server.drop(name)
+        (server.give_back if whole else server.drop)(name)
         return
     use_driver(patch, kind)
     file = folder / "history.db"
