@@ -251,7 +251,7 @@ def test_a_value_is_written_to_the_place_that_its_scatter_needs(value, step, sai
 
 def test_parts_say_themselves_in_one_line():
     verdict = guideway()
-    assert str(verdict["stiffness X"]).startswith("stiffness X: ■ alarm, 13.98 N/µm, −11 % (95 %: ")
+    assert str(verdict["stiffness X"]).startswith("stiffness X: ■ alarm, 13.98 N/µm, −10.6 % (95 %: ")
     for part in (*verdict.steps, *verdict.causes, *verdict.events, verdict.change_point, verdict.alarm, verdict.due):
         assert "\n" not in repr(part)
         assert repr(part)

@@ -24,6 +24,7 @@ from elastogeo.report.changes.words import (
     change_interval_said,
     date_said,
     days_said,
+    least_said,
     month_said,
     predicate,
     shown_unit,
@@ -43,6 +44,11 @@ _EXPLAINED = 0.5
 def machine_of(verdict: ChangeVerdict) -> str:
     """What the verdict is about: the machine, or the series where no machine is named."""
     return verdict.series.machine or verdict.series.name
+
+
+def series_said(verdict: ChangeVerdict) -> str:
+    """The series without the name of its machine before it."""
+    return verdict.series.name.removeprefix(f"{verdict.series.machine}: ")
 
 
 def least_baseline() -> int:
@@ -221,6 +227,10 @@ def _beside(verdict: ChangeVerdict) -> Iterator[str]:
             f"The alarm is held back: other machines moved alike with instrument {verdict.alarm.held_by}, which may be what "
             f"changed."
         )
+    worst = worst_of(verdict)
+    if verdict.changed and worst is not None and abs(worst.change) < worst.relevance:
+        least = least_said(worst)
+        yield f"By now the change is smaller than what matters, {least}; the alarm stays until a person closes it."
     others = [one.name for one in verdict.changed[1:]]
     if others:
         yield f"{title_of(listed(others))} changed too."
@@ -232,9 +242,17 @@ def _beside(verdict: ChangeVerdict) -> Iterator[str]:
         yield f"Not as {component_said(named[0])} alone would have it: {listed(against)}."
 
 
+def is_confirmed(verdict: ChangeVerdict) -> bool:
+    """Whether a second test shows the change too."""
+    told = [check.passed for check in verdict.verdict if check.name == "change confirmed"]
+    return bool(told[0]) if told else any(step.confirmed for step in verdict.steps)
+
+
 def _after_alarm(verdict: ChangeVerdict) -> str:
     named = points_to(verdict)
     look = f"look at {_either(named)}" if named else "look at the machine"
+    if not is_confirmed(verdict):
+        return f"Repeat the test, since nothing has confirmed the change; then {look}, or close the alarm as false."
     known = verdict.alarm
     if known is not None and known.acknowledged is None:
         return f"Acknowledge the alarm and {look}; after the repair close it with a new baseline, or close it as false."

@@ -11,8 +11,10 @@ from elastogeo.estimate import Estimate
 from elastogeo.report.changes.answers import (
     advice,
     cannot_tell,
+    is_confirmed,
     machine_of,
     sentence_of_change,
+    series_said,
     worst_of,
 )
 from elastogeo.report.changes.document import change_json
@@ -65,14 +67,15 @@ def subtitle(verdict: ChangeVerdict) -> str:
     """The series, where the title is the machine."""
     tests = len(verdict.series)
     count = f"{tests} test{'' if tests == 1 else 's'}"
-    return f"{verdict.series.name}, {count}" if verdict.series.machine else count
+    return f"{series_said(verdict)}, {count}" if verdict.series.machine else count
 
 
 def badge(verdict: ChangeVerdict) -> Badge:
     """The state in words and shape, since when, and whether a person knows."""
     since = f" since {date_said(verdict.since)}" if verdict.state in (ALARM, SUSPECT) and verdict.since is not None else ""
     known = "" if verdict.alarm is None else f", {'not ' if verdict.alarm.acknowledged is None else ''}acknowledged"
-    return Badge(MARKS[verdict.state], f"{title_of(verdict.state)}{since}{known}", TONES[verdict.state])
+    sure = "" if verdict.state != ALARM or is_confirmed(verdict) else ", unconfirmed"
+    return Badge(MARKS[verdict.state], f"{title_of(verdict.state)}{since}{sure}{known}", TONES[verdict.state])
 
 
 def trend_picture(verdict: ChangeVerdict, one: IndicatorState, name: str = "trend") -> Picture:

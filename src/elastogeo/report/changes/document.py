@@ -20,7 +20,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from elastogeo.changes import ChangeVerdict, Drift, Event, IndicatorState
-from elastogeo.report.changes.answers import machine_of, next_action, points_to, sentence_of_change, worst_of
+from elastogeo.report.changes.answers import machine_of, next_action, points_to, sentence_of_change, series_said, worst_of
 from elastogeo.report.changes.events import lettered
 from elastogeo.report.changes.points import points_of
 from elastogeo.report.changes.words import iso_date
@@ -40,7 +40,7 @@ def change_entries(verdict: ChangeVerdict) -> dict[str, Any]:
     worst = worst_of(verdict)
     return {
         "machine": machine_of(verdict),
-        "series": verdict.series.name,
+        "series": series_said(verdict),
         "simulated": verdict.series.simulated,
         **answer_entries(verdict),
         "alarm": _alarm(verdict),

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from elastogeo.changes import ALARM, OVERDUE, ChangeVerdict, MachineState
-from elastogeo.report.changes.answers import sentence_of_change, worst_of
+from elastogeo.report.changes.answers import sentence_of_change, series_said, worst_of
 from elastogeo.report.changes.change_view import change_view
 from elastogeo.report.changes.document import answer_entries, change_entries
 from elastogeo.report.changes.points import points_of
@@ -37,12 +37,13 @@ def machine_state_view(machine: MachineState) -> View:
     view = change_view(machine.series[0])
     several = len(machine.series) > 1
     table = series_table(machine)
-    late = tuple(f"{name}: overdue by {days_said(days)}." for name, days in machine.overdue.items())
+    names = {verdict.series.name: series_said(verdict) for verdict in machine.series}
+    late = tuple(f"{names.get(name, name)}: overdue by {days_said(days)}." for name, days in machine.overdue.items())
     return replace(
         view,
         kind="Machine",
         title=machine.machine,
-        subtitle=f"{len(machine.series)} series; the worst: {machine.series[0].series.name}" if several else view.subtitle,
+        subtitle=f"{len(machine.series)} series; the worst: {series_said(machine.series[0])}" if several else view.subtitle,
         badge=_badge(machine, view),
         advice=(*view.advice, *late) if several else view.advice,
         document=whole,
@@ -63,7 +64,7 @@ def series_table(machine: MachineState) -> Table:
     """The series of a machine, the worst first."""
     rows = tuple(
         (
-            verdict.series.name,
+            series_said(verdict),
             marked(verdict.state),
             short_date(verdict.since) if verdict.state == ALARM else "",
             listed(predicate(one) for one in verdict.changed) if verdict.changed else "",
@@ -110,7 +111,7 @@ def machine_json(machine: MachineState) -> dict[str, Any]:
 
 def _series(machine: MachineState, verdict: ChangeVerdict) -> dict[str, Any]:
     return {
-        "name": verdict.series.name,
+        "name": series_said(verdict),
         "state": verdict.state,
         "since": iso_date(verdict.since),
         "sentence": sentence_of_change(verdict),
@@ -126,7 +127,7 @@ def _tests(verdict: ChangeVerdict) -> list[dict[str, Any]]:
     return [
         {
             "test": point.test,
-            "series": verdict.series.name,
+            "series": series_said(verdict),
             "date": iso_date(point.date),
             "mark": point.mark,
             "temperature": point.temperature,

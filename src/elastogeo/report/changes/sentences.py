@@ -101,7 +101,8 @@ def scatter_as_expected(facts: Facts, passed: bool | None) -> str:
 def temperature_known(facts: Facts, passed: bool | None) -> str:
     """Whether a season can be told from a change."""
     if passed:
-        corrected = f" {title_of(listed(facts['corrected']))} is corrected for it." if facts["corrected"] else ""
+        names = facts["corrected"]
+        corrected = f" {title_of(listed(names))} {'is' if len(names) == 1 else 'are'} corrected for it." if names else ""
         return f"Every test says how warm the machine was.{corrected}"
     if passed is None:
         return "There is no test yet."

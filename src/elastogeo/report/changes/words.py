@@ -98,11 +98,13 @@ def value_said(one: IndicatorState, value: float, digits_of: float | None = None
 
 
 def change_said(one: IndicatorState) -> str:
-    """A change with its sign: `-11.4 %`, `+1.6 µm`; with the unit."""
+    """A change with its sign and unit, to the place that its interval needs: `−11.4 %`, `+1.61 µm`."""
     if not isfinite(one.change):
         return UNKNOWN
-    size, unit = _size(one, one.change)
-    return f"{'−' if one.change < 0 else '+'}{size} {unit}"
+    factor, unit = _scale(one)
+    half = (max(one.change_interval) - min(one.change_interval)) / 2
+    number = to_place_of(one.change * factor, half * factor)
+    return f"{number if number.startswith('−') or not one.change else f'+{number}'} {unit}"
 
 
 def change_interval_said(one: IndicatorState, signed: bool = True) -> str:
@@ -163,3 +165,8 @@ def _scale(one: IndicatorState) -> tuple[float, str]:
 def size_said(size: float) -> str:
     """Two digits, none behind the point from ten on: `0.42`, `2.1`, `11`, `130`."""
     return f"{size:.0f}" if size >= 9.95 else significant(size, 2)
+
+
+def least_said(one: IndicatorState) -> str:
+    """Least change of an indicator that matters, with its unit."""
+    return " ".join(_size(one, one.relevance))
