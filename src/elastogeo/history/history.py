@@ -11,12 +11,24 @@ from types import TracebackType
 
 from sqlalchemy import Connection
 
-from elastogeo.changes import SUSPECT, AuditTrail, ChangeVerdict, KeptPlans, Kind, Recomputed, Tolerance
+from elastogeo.changes import (
+    SUSPECT,
+    AuditTrail,
+    ChangeVerdict,
+    FleetState,
+    KeptPlans,
+    Kind,
+    MachineState,
+    Recomputed,
+    Tolerance,
+    machine_state,
+)
 from elastogeo.changes.alarms import AlarmList, Delivery
 from elastogeo.errors import ElastogeoError, StoreError
 from elastogeo.history import alarms
 from elastogeo.history.alarms.assessing import assess
 from elastogeo.history.alarms.judging import judged
+from elastogeo.history.alarms.states import fleet
 from elastogeo.history.analyses import (
     analyse,
     due_date,
@@ -211,6 +223,35 @@ class History:
                 raise
             except ElastogeoError as error:
                 yield Added(test, None, error=str(error))
+
+    def verdict(self, machine: str, series: str = "") -> ChangeVerdict:
+        """Whether a machine has changed, by one series of its tests: its only one, or the one with this in its name.
+
+        Raises
+        ------
+        InputError
+            If there is no such machine or series, or more than one.
+        """
+        with read(self.store) as connection:
+            return judged(connection, series_named(connection, machine, series).key, now())[0]
+
+    def machine(self, name: str) -> MachineState:
+        """A machine by all its series, the worst first.
+
+        Raises
+        ------
+        InputError
+            If there is no such machine.
+        """
+        with read(self.store) as connection:
+            found = machine_named(connection, name)
+            every = [judged(connection, one.key, now())[0] for one in series_of_machine(connection, name)]
+        return machine_state(found.name, every)
+
+    def fleet(self) -> FleetState:
+        """All machines, the worst first: as they were judged last, and what has become overdue since."""
+        with read(self.store) as connection:
+            return fleet(connection, now())
 
     def series(self, machine: str) -> tuple[KnownSeries, ...]:
         """The series of a machine, by name or serial number: its tests by one recipe each."""

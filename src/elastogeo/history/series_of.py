@@ -79,7 +79,11 @@ def series_of(connection: Connection, key: int) -> Series:
     deciding = baseline_tests(connection, key) or {row.id for row in rows} - aside
     names = _names(told, {row.analysis: row.id for row in rows}, deciding)
     made = _series(f"{head.machine}: {head.name}", rows, told, names, aside)
-    return replace(made, signatures=_signatures(connection, [row.analysis for row in rows if row.id in deciding]))
+    return replace(
+        made,
+        machine=head.machine,
+        signatures=_signatures(connection, [row.analysis for row in rows if row.id in deciding]),
+    )
 
 
 def baseline_tests(connection: Connection, key: int) -> set[int]:

@@ -80,12 +80,13 @@ def note_held(connection: Connection, key: int, serial: str) -> None:
 def fleet(connection: Connection, at: datetime) -> FleetState:
     """All machines by their worst series, from what was kept when they were assessed: nothing is judged."""
     rows = connection.execute(
-        select(machine.c.name, machine.c.place, series.c.name.label("of"), series_state.c.verdict)
+        select(machine, series.c.name.label("of"), series_state.c.verdict)
         .outerjoin(series, series.c.machine == machine.c.id)
         .outerjoin(series_state, series_state.c.series == series.c.id)
         .order_by(machine.c.name, series.c.id)
     )
-    return fleet_state((_machine_row(row.name, row.place, row.of, row.verdict) for row in rows), days(at))
+    found = (replace(_machine_row(row.name, row.place, row.of, row.verdict), model=row.kind, key=row.id) for row in rows)
+    return fleet_state(found, days(at))
 
 
 def _machine_row(name: str, place: str, of: str | None, kept: Mapping[str, Any] | None) -> MachineRow:

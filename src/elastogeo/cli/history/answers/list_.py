@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import Annotated
+
+import typer
 
 import elastogeo as eg
-from elastogeo.cli.options import STORE, Store
+from elastogeo.cli.options import STORE, AsJson, Report, Store
 
 
-def list_(store: Store = STORE) -> None:
+def list_(
+    machine: Annotated[str, typer.Option("--machine", "-m", help="Only this machine: its series, the worst first.")] = "",
+    store: Store = STORE,
+    report: Report = None,
+    as_json: AsJson = False,
+) -> None:
     """List the machines, the worst first.
 
+    The state of each is that of its worst series, as it was judged when its last test came in.
+
     \b
-    Example:
-      elastogeo history list --store shop.db
+    Examples:
+      elastogeo history list
+      elastogeo history list --machine "Mill 3"
     """
-    if "://" not in store and not Path(store).is_file():
-        raise eg.InputError(f"{store}: there is no history here; name it with --store, or make one: elastogeo history init")
-    raise eg.UnsupportedError(f"{store}: this version keeps machines, but does not list them yet")
+    from elastogeo.cli import screen
+
+    with eg.History(store) as history:
+        found = history.machine(machine) if machine else history.fleet()
+    screen.show(found, report, as_json)
