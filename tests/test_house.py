@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import elastogeo
-from elastogeo.cli.doors import every
+from elastogeo.cli.doors import Command, Group, doors, every
 
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
@@ -76,6 +76,16 @@ def test_readme_elastogeo_commands_exist() -> None:
     groups = {typed.partition(" ")[0] for typed in known if " " in typed}
     assert shown
     assert {" ".join((first, second)) if first in groups and second else first for first, second in shown} <= known
+
+
+def test_the_summary_of_every_command_fits_its_line_of_the_help() -> None:
+    """At 80 columns, beside the longest name of a group (`acknowledge`)."""
+    groups = [door.commands for door in doors().values() if isinstance(door, Group)]
+    single = {name: door for name, door in doors().items() if isinstance(door, Command)}
+    for commands in (single, *groups):
+        room = 72 - max(map(len, commands))
+        summaries = {name: re.match(r"[^.\n]*\.?", one.function().__doc__ or "")[0] for name, one in commands.items()}
+        assert {name: said for name, said in summaries.items() if not (said.endswith(".") and len(said) <= room)} == {}
 
 
 @pytest.mark.parametrize("package", subpackages())

@@ -19,7 +19,7 @@ def acknowledge(
     who: Who = "",
     as_json: AsJson = False,
 ) -> None:
-    """Say that you know of an alarm; it stays open, and is told again only if it becomes worse.
+    """Say that you know of an alarm; it stays open.
 
     \b
     Example:

@@ -7,7 +7,7 @@ from elastogeo.cli.options import STORE, AsJson, Store
 
 
 def deliver(store: Store = STORE, as_json: AsJson = False) -> None:
-    """Send what is due: messages of alarms, and once a week the digest.
+    """Send what is due: messages, and once a week the digest.
 
     Let a timer call it every few minutes. It also makes an alarm of a suspect test that nobody repeated within a week.
     What a receiver does not take is tried again, later each time, for about a day and a half.

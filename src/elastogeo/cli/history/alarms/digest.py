@@ -7,7 +7,7 @@ from elastogeo.cli.options import STORE, AsJson, Store
 
 
 def digest(store: Store = STORE, as_json: AsJson = False) -> None:
-    """Show open alarms, overdue tests and messages that did not arrive: what `deliver` sends once a week.
+    """Show open alarms, overdue tests, messages that failed.
 
     \b
     Example:
