@@ -58,6 +58,7 @@ RECIPES = {
     "An error source": "elastogeo.sources.families",
     "A test that can be planned": "elastogeo.planning.offers.proposal",
     "A result that shows itself": "elastogeo.report.view",
+    "A channel for alarms": "elastogeo.history.alarms.channels.channel",
     "A command, a group of commands": "elastogeo.cli.doors",
 }
 

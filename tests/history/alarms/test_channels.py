@@ -7,13 +7,13 @@ import email.policy
 import json
 import logging
 import socket
+import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from elastogeo.errors import DeliveryError, InputError, SelectionError
-from elastogeo.history.alarms import channels as face
 from elastogeo.history.alarms.channels import Channel, Message, channel, channels, webhook
 from tests.history.alarms.servers import certificate, mail_server, web_server
 
@@ -43,7 +43,9 @@ def test_a_channel_takes_its_sample_and_refuses_what_is_no_address(made: Channel
 
 
 def test_the_recipe_is_complete(tmp_path: Path) -> None:
-    recipe = str(face.__doc__).split("`toy.py`::\n")[1].split("\nWhat the contract asks")[0]
+    recipe = (
+        str(sys.modules[channel.__module__].__doc__).split("`channels/toy.py`::\n")[1].split("\nWhat the contract asks")[0]
+    )
     code = "\n".join(line.removeprefix("    ") for line in recipe.splitlines())
     registry = channel.__globals__["_CHANNELS"]
     before = dict(registry)

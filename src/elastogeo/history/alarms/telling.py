@@ -1,6 +1,6 @@
 """What is told, and when: which tests are news, and which step of an alarm makes a message. Pure.
 
-Decision record 0044 says why. Opening, becoming worse and being released are told once, if a live test or a person caused
+`docs/decisions` says why. Opening, becoming worse and being released are told once, if a live test or a person caused
 them, and the end to whoever was told of the beginning. Imports of old tests and re-analysis tell nobody.
 """
 
