@@ -3,8 +3,12 @@
 import errno
 import hashlib
 import os
+import signal
 import time
+import warnings
 from collections.abc import Callable
+from functools import partial
+from itertools import count
 from pathlib import Path
 
 import pytest
@@ -187,3 +191,43 @@ def test_a_folder_that_is_gone_is_not_made_anew(tmp_path: Path) -> None:
 @pytest.mark.skipif(os.name == "nt", reason="that raw files cannot be written by chance, of which Windows knows another way")
 def test_nobody_writes_a_raw_file_by_chance(kept: Files) -> None:
     assert kept.path(kept.put(b"raw")).stat().st_mode & 0o777 == 0o444
+
+
+def killed_at(call: int, action: Callable[[], object]) -> bool:
+    """Whether a child process is killed at the call of this number of what reaches the disk."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of threads, of which the child uses none
+        child = os.fork()
+    if child:
+        return os.WIFSIGNALED(os.waitpid(child, 0)[1])
+    calls = count(1)
+
+    def counted(real: Callable[..., object]) -> Callable[..., object]:
+        def counting(*given: object, **named: object) -> object:
+            if next(calls) == call:
+                os.kill(os.getpid(), signal.SIGKILL)
+            return real(*given, **named)
+
+        return counting
+
+    try:
+        os.fsync, os.replace, os.fchmod, Path.mkdir = map(counted, (os.fsync, os.replace, os.fchmod, Path.mkdir))  # type: ignore[assignment,method-assign]
+        action()
+    finally:
+        os._exit(0)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="kills while files are written, which Windows cannot fork for")
+def test_a_program_that_is_killed_anywhere_leaves_only_whole_files(kept: Files) -> None:
+    kills = 0
+    for call in count(1):
+        contents = [b"%d of %d" % (k, call) * 1000 for k in range(3)]
+        if not killed_at(call, partial(kept.put_all, contents)):
+            break
+        kills += 1
+        assert all(kept.read(sha256) for sha256 in kept.all())
+        assert [kept.read(sha256) for sha256 in kept.put_all(contents)] == contents
+    assert kills >= 12
+    left = everything(kept.folder / "incoming")
+    assert left
+    assert not set(left) & set(kept.all())

@@ -117,7 +117,10 @@ def write(store: Store) -> Iterator[Connection]:
 
 @contextmanager
 def read(store: Store) -> Iterator[Connection]:
-    """A transaction that reads: one consistent state, whatever others write meanwhile."""
+    """A transaction that reads: one consistent state, whatever others write meanwhile.
+
+    End it before you write: on SQLite in TRUNCATE a writer waits for readers, those of its own program too.
+    """
     with in_words(store.url, writes=False), store.engine.connect() as connection:
         if connection.dialect.name == "postgresql":
             connection.execution_options(isolation_level="REPEATABLE READ", postgresql_readonly=True)

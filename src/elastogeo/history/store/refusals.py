@@ -10,8 +10,8 @@ from sqlalchemy.exc import DBAPIError, IntegrityError
 from elastogeo.errors import StoreError
 
 _SAID = {
-    "is locked": "another program has been writing for half a minute; wait until it is done, or close it",
-    "lock timeout": "another program has been writing for half a minute; wait until it is done, or close it",
+    "is locked": "another program has held it for half a minute; wait until it is done, or close it",
+    "lock timeout": "another program has held it for half a minute; wait until it is done, or close it",
     "is full": "there is no room on the disk; nothing was kept of this step; free some, then repeat it",
     "no space left": "there is no room on the server's disk; nothing was kept of this step; free some, then repeat it",
     "disk i/o error": "the disk failed while it was read or written; check the disk, then: elastogeo history verify",
