@@ -57,6 +57,7 @@ RECIPES = {
     "An instrument": "elastogeo.observe.instruments",
     "An error source": "elastogeo.sources.families",
     "A test that can be planned": "elastogeo.planning.offers.proposal",
+    "What is watched of a result": "elastogeo.changes.indicators.register",
     "A result that shows itself": "elastogeo.report.view",
     "A channel for alarms": "elastogeo.history.alarms.channels.channel",
     "A command, a group of commands": "elastogeo.cli.doors",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +18,7 @@ from elastogeo.machine import Machine, parse_topology
 from elastogeo.observe import BallBar, Calibration, Circle, Imperfection, LoadedBallBar, MachineTest, Question, Run
 from elastogeo.result import Result
 from elastogeo.sources import simulate
+from tests.conftest import follow_recipe
 
 RADIUS = 150.0
 TRUTH = {
@@ -115,6 +117,12 @@ def test_every_kind_of_result_gives_few_indicators_of_known_kinds() -> None:
     assert len(watched()) >= 6
     assert all(issubclass(kind, Result) for kind in watched())
     assert MOST == 8
+
+
+def test_the_recipe_of_the_register_works_as_it_stands() -> None:
+    follow_recipe("elastogeo.changes.indicators.register", "recipe_run_out")
+    found = indicators_of(sys.modules["recipe_run_out"].RunOut(0.004, 0.001))
+    assert [(one.name, one.value, one.standard_uncertainty) for one in found] == [("run-out of the spindle", 0.004, 0.001)]
 
 
 def test_another_result_is_refused_by_its_name() -> None:

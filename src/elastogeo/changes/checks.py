@@ -103,8 +103,10 @@ def _confirmed(
     yield Check(CONFIRMED, bool(found.confirmed), {"since": found.since})
     known = series.signatures is not None
     named = tuple(cause.component for cause in causes)
-    changed = sum(one.state == ALARM for one in indicators)
-    yield Check(EXPLAINED, bool(named) if known else None, {"components": named, "changed": changed, "signatures": known})
+    changed = [one.name for one in indicators if one.state == ALARM]
+    left = tuple(name for name in changed if causes and name in causes[0].against)
+    facts = {"components": named, "left": left, "signatures": known}
+    yield Check(EXPLAINED, bool(named) and not left if known else None, facts)
 
 
 def _tolerated(indicators: Sequence[IndicatorState]) -> Iterator[Check]:

@@ -5,15 +5,22 @@ what it gives, the charts judge it. A complete one, `dial_gauge.py`::
 
     """Of a dial gauge: how far the spindle runs out."""
 
-    from elastogeo.changes.indicators.register import indicates
-    from elastogeo.changes.kinds import KINDS
-    from elastogeo.changes.series import Indicator
+    from dataclasses import dataclass
+
+    from elastogeo.changes import KINDS, Indicator
+    from elastogeo.changes.indicators import indicates
+    from elastogeo.result import Result
 
 
-    @indicates(DialGaugeResult)
-    def of_a_dial_gauge(result):
-        u = result.run_out.standard_uncertainty
-        return (Indicator("run-out", KINDS["straightness"], result.run_out.value, u),)
+    @dataclass(frozen=True)
+    class RunOut(Result):
+        value: float
+        scatter: float
+
+
+    @indicates(RunOut)
+    def of_a_run_out(result):
+        return (Indicator("run-out of the spindle", KINDS["straightness"], result.value, result.scatter),)
 
 What the contract asks: at most `MOST` indicators, the most important first, in an order that never depends on the values;
 each by itself determined by the test, so **never a parameter that is one of a sum**; a name that a metrologist says. What a

@@ -40,7 +40,10 @@ def change_explained(facts: Facts, passed: bool | None) -> str:
         return f"The changes fit a fault of one component: {first}{f'; or {listed(others)}' if others else ''}."
     if passed is None:
         return "How faults of components move the indicators of this test is not known, so none is named."
-    return "No single component explains the changes: there are several faults, or one that is not in the model."
+    why = "there are several faults, or one that is not in the model"
+    if facts["left"]:
+        return f"A fault of one component ({facts['components'][0]}) leaves {listed(facts['left'])} unexplained: {why}."
+    return f"No single component explains the changes: {why}."
 
 
 @says("within tolerance")
