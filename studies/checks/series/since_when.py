@@ -2,7 +2,7 @@
 
 from studies.histories import Fault, Ways
 from studies.rates import Cell, Study
-from studies.series_samples import MISSED, Judged, Since
+from studies.series_samples import HELD, MISSED, Judged, Since
 
 LAYOUT = "8 indicators, baseline of 10"
 STEP = Judged(Ways(tests=14, fault=Fault(-5.0, after=6, expected=True)))
@@ -13,6 +13,12 @@ def missed(truth: str, what: str, sample: Judged, most: float, short: int = 0) -
     """How often the interval does not hold it."""
     noise = "white" if sample is RAMP else "scatter of the prior"
     return Cell(f"{truth}: {what}", LAYOUT, noise, sample, Since(what, sample), (MISSED,), most=most, short=short)
+
+
+def said(truth: str, what: str, sample: Judged) -> Cell:
+    """How often it is said at all, and holds the truth."""
+    noise = "white" if sample is RAMP else "scatter of the prior"
+    return Cell(f"{truth}: {what} said", LAYOUT, noise, sample, Since(what, sample), (HELD,), least=0.85, short=20)
 
 
 STUDY = Study(
@@ -26,6 +32,9 @@ STUDY = Study(
         missed("a ramp of 1 sigma a test", "change", RAMP, 0.1),
         missed("a ramp of 1 sigma a test", "slope", RAMP, 0.08),
         missed("a ramp of 1 sigma a test", "date of the limit", RAMP, 0.08),
+        said("a step of 5 sigma", "change point", STEP),
+        said("a ramp of 1 sigma a test", "slope", RAMP),
+        said("a ramp of 1 sigma a test", "date of the limit", RAMP),
     ),
     order=3,
 )
