@@ -27,6 +27,7 @@ PAGES = (
     "prediction.md",
     "campaigns.md",
     "planning.md",
+    "history.md",
 )
 
 
