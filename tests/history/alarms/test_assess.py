@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from sqlalchemy import insert, select
+from sqlalchemy import insert, select, update
 
 from elastogeo.changes import ALARM, NO_BASELINE, OVERDUE, STEADY, SUSPECT
 from elastogeo.history.alarms.acts import acknowledge, close
@@ -175,6 +175,22 @@ def test_reanalysis_opens_an_alarm_and_tells_nobody(machine: Machine) -> None:
     machine.clock.advance(hours=1)
     machine.test(loss=20.0, repeats=machine.tests[-1], live=False)
     assert [state for _, state in steps(machine.store)] == ["open"]
+    assert messages(machine.store) == []
+
+
+def test_a_test_that_comes_again_is_no_news(machine: Machine) -> None:
+    """Re-analysis opened an alarm; then the folder of its live tests is imported again."""
+    machine.test()
+    first = machine.made(loss=20.0)
+    machine.clock.advance(hours=1)
+    again = machine.made(loss=20.0, repeats=first)
+    with write(machine.store) as connection:
+        kept = connection.execute(select(series_state)).one()
+        connection.execute(update(series_state).values(verdict=kept.verdict | {"seen": [first, again]}))
+    assess(machine.store, machine.series)
+    assert [state for _, state in steps(machine.store)] == ["open"]
+    for key in (first, again):
+        assess(machine.store, machine.series, key)
     assert messages(machine.store) == []
 
 

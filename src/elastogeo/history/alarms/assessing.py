@@ -17,7 +17,7 @@ from elastogeo.history.alarms.life import Found, steps_of
 from elastogeo.history.alarms.open_ones import rows_of, simulated
 from elastogeo.history.alarms.outbox import post, was_told
 from elastogeo.history.alarms.rows import open_alarm, open_one, take
-from elastogeo.history.alarms.states import keep
+from elastogeo.history.alarms.states import Waiting, keep
 from elastogeo.history.alarms.telling import is_live, news
 from elastogeo.history.series_of import days, instant
 from elastogeo.history.store import Store, now, read, write
@@ -33,7 +33,7 @@ def assess(store: Store, series: int, live: int | None = None) -> ChangeVerdict:
     series : int
     live : int, optional
         Key of the test that was just imported. Without one (a re-analysis, a test set aside, another baseline) states and
-        alarms change, and nobody is told.
+        alarms change, and nobody is told; nor with one that was assessed before.
 
     Raises
     ------
@@ -41,7 +41,8 @@ def assess(store: Store, series: int, live: int | None = None) -> ChangeVerdict:
         If there is no such series.
     """
     with write(store) as connection:
-        return assessed(connection, series, live is not None and _is_news(connection, live), now())
+        at = now()
+        return assessed(connection, series, live is not None and _is_news(connection, series, live, at), at, live)
 
 
 def assess_waiting(store: Store) -> tuple[ChangeVerdict, ...]:
@@ -56,8 +57,8 @@ def assess_waiting(store: Store) -> tuple[ChangeVerdict, ...]:
     return tuple(found)
 
 
-def assessed(connection: Connection, key: int, live: bool, at: datetime) -> ChangeVerdict:
-    """The same in the caller's transaction; `live`: whether what is found is news."""
+def assessed(connection: Connection, key: int, live: bool, at: datetime, by: int | None = None) -> ChangeVerdict:
+    """The same in the caller's transaction; `live`: whether what is found is news, `by`: the test that was imported."""
     verdict, prior = judged(connection, key, at)
     found = found_of(verdict)
     kept = open_alarm(connection, series=key)
@@ -75,7 +76,7 @@ def assessed(connection: Connection, key: int, live: bool, at: datetime) -> Chan
         told = AlarmNews(kept.steps[place].state, row, verdict, simulated(connection, key))
         post(connection, kept, kept.keys[place], told, at)
     pending = bool(steps_of(replace(found, sure=found.size), () if kept is None else kept.steps)) and verdict.state == ALARM
-    keep(connection, key, verdict, prior, live, pending)
+    keep(connection, key, verdict, prior, Waiting(live, pending, by))
     return verdict
 
 
@@ -108,9 +109,13 @@ def _ratios(verdict: ChangeVerdict, test: str, single: bool = False) -> dict[str
     return found
 
 
-def _is_news(connection: Connection, key: int) -> bool:
-    row = connection.execute(select(test.c.at, test.c.imported_at).where(test.c.id == key)).one()
-    return is_live(row.at, row.imported_at)
+def _is_news(connection: Connection, key: int, by: int, at: datetime) -> bool:
+    """Whether a test was just measured when it came, and comes now for the first time."""
+    row = connection.execute(select(test.c.at, test.c.imported_at).where(test.c.id == by)).one()
+    if not is_live(row.at, row.imported_at) or not is_live(row.at, at):
+        return False
+    kept = connection.scalar(select(series_state.c.verdict).where(series_state.c.series == key))
+    return by not in (kept or {}).get("seen", ())
 
 
 def _cleared(connection: Connection, key: int) -> datetime | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from datetime import datetime
 from math import nan
 from typing import Any
@@ -26,8 +26,30 @@ from elastogeo.history.alarms.priors import facts_of
 from elastogeo.history.series_of import days, instant
 from elastogeo.history.store.schema import machine, series, series_state
 
+SEEN = 24
+"""Tests of a series, the last that were assessed, which are no news when they come again."""
 
-def keep(connection: Connection, key: int, verdict: ChangeVerdict, prior: Prior | None, live: bool, pending: bool) -> None:
+
+@dataclass(frozen=True, slots=True)
+class Waiting:
+    """What a later assessment must know of this one.
+
+    Attributes
+    ----------
+    live : bool
+        Whether the verdict is news.
+    pending : bool
+        Whether the alarm becomes worse if no repeat of the last test says otherwise.
+    by : int or None
+        The test that was imported.
+    """
+
+    live: bool
+    pending: bool
+    by: int | None = None
+
+
+def keep(connection: Connection, key: int, verdict: ChangeVerdict, prior: Prior | None, waiting: Waiting) -> None:
     """Write the state of a series; its version grows only if something changed.
 
     Parameters
@@ -39,13 +61,13 @@ def keep(connection: Connection, key: int, verdict: ChangeVerdict, prior: Prior 
     verdict : ChangeVerdict
     prior : Prior or None
         That it was judged with.
-    live : bool
-        Whether the verdict is news.
-    pending : bool
-        Whether the alarm becomes worse if no repeat of the last test says otherwise.
+    waiting : Waiting
     """
     before = connection.execute(select(series_state).where(series_state.c.series == key)).one_or_none()
-    waits = _waits(verdict, live, pending, {} if before is None else before.verdict)
+    was = {} if before is None else before.verdict
+    seen = list(was.get("seen", ()))
+    if waiting.by is not None and waiting.by not in seen:
+        seen = [*seen, waiting.by][-SEEN:]
     made = verdict.series
     stands = ~made.aside & np.isfinite(made.value).any(axis=1)
     last = float(made.date[stands][-1]) if stands.any() else None
@@ -57,8 +79,9 @@ def keep(connection: Connection, key: int, verdict: ChangeVerdict, prior: Prior 
         "due": None if due is None else instant(due),
         "verdict": {
             "row": replace(machine_row(verdict), overdue=0.0).document(),
-            "waits": waits,
+            "waits": _waits(verdict, waiting, was),
             "prior": facts_of(connection, key, made, prior),
+            "seen": seen,
         },
     }
     if before is None:
@@ -97,13 +120,13 @@ def _machine_row(name: str, place: str, of: str | None, kept: Mapping[str, Any] 
     return replace(MachineRow.of_document(dict(kept["row"])), machine=name, place=place, series=of or "")
 
 
-def _waits(verdict: ChangeVerdict, live: bool, pending: bool, before: Mapping[str, Any]) -> dict[str, Any] | None:
+def _waits(verdict: ChangeVerdict, waiting: Waiting, before: Mapping[str, Any]) -> dict[str, Any] | None:
     """Until when what the charts say waits for a repeat; whether it is news stays with the test that it waits for."""
     if verdict.waiting and verdict.repeat_by is not None:
         asked, until = verdict.waiting, verdict.repeat_by
-    elif pending and verdict.state == ALARM:
+    elif waiting.pending and verdict.state == ALARM:
         asked, until = verdict.steps[-1].test, verdict.steps[-1].date + Rule().wait
     else:
         return None
     was = before.get("waits") or {}
-    return {"test": asked, "until": until, "live": live or (was.get("test") == asked and bool(was["live"]))}
+    return {"test": asked, "until": until, "live": waiting.live or (was.get("test") == asked and bool(was["live"]))}
