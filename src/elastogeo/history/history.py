@@ -233,7 +233,7 @@ class History:
             If there is no such machine or series, or more than one.
         """
         with read(self.store) as connection:
-            return judged(connection, series_named(connection, machine, series).key, now())[0]
+            return judged(connection, series_named(connection, machine, series).key, now())
 
     def machine(self, name: str) -> MachineState:
         """A machine by all its series, the worst first.
@@ -245,7 +245,7 @@ class History:
         """
         with read(self.store) as connection:
             found = machine_named(connection, name)
-            every = [judged(connection, one.key, now())[0] for one in series_of_machine(connection, name)]
+            every = [judged(connection, one.key, now()) for one in series_of_machine(connection, name)]
         return machine_state(found.name, every)
 
     def fleet(self) -> FleetState:
@@ -448,4 +448,4 @@ class History:
 
 
 def _was_suspect(connection: Connection, series: int, at: datetime) -> bool:
-    return judged(connection, series, at)[0].state == SUSPECT
+    return judged(connection, series, at).state == SUSPECT

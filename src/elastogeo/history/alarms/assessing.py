@@ -9,10 +9,10 @@ from math import inf, isfinite
 from sqlalchemy import Connection, select
 
 from elastogeo.changes import ALARM, SUSPECT, ChangeVerdict, Rule
-from elastogeo.changes.alarms import FALSE, REPAIRED, AlarmNews
+from elastogeo.changes.alarms import AlarmNews
 from elastogeo.history.alarms.baselines import closed
 from elastogeo.history.alarms.instruments import assess_instrument
-from elastogeo.history.alarms.judging import judged, shown
+from elastogeo.history.alarms.judging import judged_with, shown
 from elastogeo.history.alarms.life import Found, steps_of
 from elastogeo.history.alarms.open_ones import rows_of, simulated
 from elastogeo.history.alarms.outbox import post, was_told
@@ -59,17 +59,18 @@ def assess_waiting(store: Store) -> tuple[ChangeVerdict, ...]:
 
 def assessed(connection: Connection, key: int, live: bool, at: datetime, by: int | None = None) -> ChangeVerdict:
     """The same in the caller's transaction; `live`: whether what is found is news, `by`: the test that was imported."""
-    verdict, prior = judged(connection, key, at)
+    verdict, prior = judged_with(connection, key, at)
     found = found_of(verdict)
     kept = open_alarm(connection, series=key)
     before = () if kept is None else kept.steps
     was = kept is not None and was_told(connection, kept)
-    steps = steps_of(found, before, None if kept else _cleared(connection, key))
+    steps = steps_of(found, before, _cleared(connection, key) if found.alarming and kept is None else None)
     if steps:
         kept = take(connection, kept or open_one(connection, at, series=key), steps, at)
-    assess_instrument(connection, key, verdict, live, at)
-    kept = open_alarm(connection, series=key)
-    verdict = replace(verdict, alarm=shown(connection, kept))
+    if assess_instrument(connection, key, verdict, live, at):
+        kept = open_alarm(connection, series=key)
+    if kept is not None:
+        verdict = replace(verdict, alarm=shown(connection, kept))
     place = news(before, steps, found, live, was)
     if kept is not None and place is not None and not kept.is_held:
         (row,) = rows_of(connection, [kept], at)
@@ -120,8 +121,7 @@ def _is_news(connection: Connection, key: int, by: int, at: datetime) -> bool:
 
 def _cleared(connection: Connection, key: int) -> datetime | None:
     """When the last alarm of a series was closed."""
-    times = [*closed(connection, key, FALSE), *closed(connection, key, REPAIRED)]
-    return max(times, default=None)
+    return max((at for _, at in closed(connection, key)), default=None)
 
 
 def _waiting(connection: Connection, at: datetime) -> dict[int, bool]:

@@ -7,7 +7,7 @@ from datetime import datetime
 from sqlalchemy import Connection, select
 
 from elastogeo.changes import Baseline, Tolerance
-from elastogeo.changes.alarms import FALSE, REPAIRED
+from elastogeo.changes.alarms import CLOSED, FALSE, REPAIRED
 from elastogeo.history.series_of import days
 from elastogeo.history.store.schema import alarm, alarm_step, baseline, tolerance
 
@@ -20,22 +20,24 @@ def baseline_of(connection: Connection, series: int) -> Baseline | None:
     row = connection.execute(
         select(baseline).where(baseline.c.series == series).order_by(baseline.c.id.desc()).limit(1)
     ).one_or_none()
-    if row is None or any(at >= row.set_at for at in closed(connection, series, REPAIRED)):
+    if row is None:
         return None
-    cleared = tuple(days(at) for at in closed(connection, series, FALSE) if at >= row.since)
+    ended = closed(connection, series)
+    if any(state == REPAIRED and at >= row.set_at for state, at in ended):
+        return None
+    cleared = tuple(days(at) for state, at in ended if state == FALSE and at >= row.since)
     return Baseline(tuple(str(key) for key in row.tests), days(row.since), cleared)
 
 
-def closed(connection: Connection, series: int, as_what: str) -> tuple[datetime, ...]:
-    """When alarms of a series were closed as repaired, or as false."""
-    return tuple(
-        connection.scalars(
-            select(alarm_step.c.at)
-            .join(alarm, alarm.c.id == alarm_step.c.alarm)
-            .where(alarm.c.series == series, alarm_step.c.state == as_what)
-            .order_by(alarm_step.c.id)
-        )
+def closed(connection: Connection, series: int) -> tuple[tuple[str, datetime], ...]:
+    """How and when alarms of a series were closed."""
+    rows = connection.execute(
+        select(alarm_step.c.state, alarm_step.c.at)
+        .join(alarm, alarm.c.id == alarm_step.c.alarm)
+        .where(alarm.c.series == series, alarm_step.c.state.in_(CLOSED))
+        .order_by(alarm_step.c.id)
     )
+    return tuple((row.state, row.at) for row in rows)
 
 
 def tolerances_of(connection: Connection, series: int) -> dict[str, Tolerance]:

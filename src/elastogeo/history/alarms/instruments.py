@@ -21,8 +21,8 @@ LEAST_MACHINES = 3
 """In alarm or suspect with one instrument, below which nothing is looked for."""
 
 
-def assess_instrument(connection: Connection, key: int, verdict: ChangeVerdict, live: bool, at: datetime) -> None:
-    """Look whether the change of a series is one of the instrument of its last test, and act on it.
+def assess_instrument(connection: Connection, key: int, verdict: ChangeVerdict, live: bool, at: datetime) -> bool:
+    """Look whether the change of a series is one of the instrument of its last test, and act on it; whether it is.
 
     Parameters
     ----------
@@ -37,20 +37,22 @@ def assess_instrument(connection: Connection, key: int, verdict: ChangeVerdict, 
     """
     serial = _last_instrument(verdict)
     if verdict.state not in (ALARM, SUSPECT) or not serial:
-        return
+        return False
     own = connection.scalar(select(instrument.c.id).where(instrument.c.serial == serial))
     if own is None:
-        return
+        return False
     since = _since(connection, own)
     if len(_moving(connection, own, since, key)) < LEAST_MACHINES:
-        return
-    verdicts = {other: judged(connection, other, at)[0] for other in _tested(connection, own, since) if other != key}
+        return False
+    verdicts = {other: judged(connection, other, at) for other in _tested(connection, own, since) if other != key}
     verdicts[key] = verdict
     known = {} if since is None else {serial: days(since)}
     move = next((one for one in instrument_moves(verdicts.values(), known) if one.instrument == serial), None)
-    if move is not None:
-        named = {found.series.name: other for other, found in verdicts.items()}
-        _act(connection, own, move, [named[name] for name in move.series], live, at)
+    if move is None:
+        return False
+    named = {found.series.name: other for other, found in verdicts.items()}
+    _act(connection, own, move, [named[name] for name in move.series], live, at)
+    return True
 
 
 def _act(connection: Connection, own: int, move: InstrumentMove, keys: list[int], live: bool, at: datetime) -> None:

@@ -7,18 +7,29 @@ from datetime import datetime
 
 from sqlalchemy import Connection, or_, select
 
-from elastogeo.changes import ChangeVerdict, Event, OpenAlarm, Prior, Rule, due_of, judge
+from elastogeo.changes import ChangeVerdict, Event, OpenAlarm, Rule, due_of, judge
 from elastogeo.changes.alarms import ACKNOWLEDGED
 from elastogeo.history.alarms.baselines import baseline_of, tolerances_of
 from elastogeo.history.alarms.life import is_acknowledged
-from elastogeo.history.alarms.priors import prior_of
+from elastogeo.history.alarms.priors import KeptPrior, prior_of
 from elastogeo.history.alarms.rows import Kept, alarm_of, open_alarm
 from elastogeo.history.series_of import days, series_of
 from elastogeo.history.store.schema import calibration, event, instrument, series
 
 
-def judged(connection: Connection, key: int, at: datetime) -> tuple[ChangeVerdict, Prior | None]:
-    """A series by its charts, and the scatter of the fleet that they were judged with; events, due date, alarm beside it.
+def judged(connection: Connection, key: int, at: datetime) -> ChangeVerdict:
+    """A series by its charts, with its events, when its next test is due, and its open alarm.
+
+    Raises
+    ------
+    InputError
+        If there is no such series.
+    """
+    return judged_with(connection, key, at)[0]
+
+
+def judged_with(connection: Connection, key: int, at: datetime) -> tuple[ChangeVerdict, KeptPrior]:
+    """The same, and the scatter of the fleet that it was judged with, to be kept.
 
     Raises
     ------
@@ -31,7 +42,7 @@ def judged(connection: Connection, key: int, at: datetime) -> tuple[ChangeVerdic
     named = set() if base is None else set(base.tests)
     if base is not None and not named <= set(made.tests):  # a new software version has not analysed all of them yet
         base = replace(base, tests=tuple(test for test in base.tests if test in made.tests))
-    prior = None if base is None else prior_of(connection, key, made)
+    prior, kept = (None, None) if base is None else prior_of(connection, key, row.software, made)
     wanted = {name: given for name, given in tolerances_of(connection, key).items() if name in made.indicators}
     verdict = judge(made, base, prior, Rule(alpha=row.alpha), days(at), wanted)
     return replace(
@@ -39,7 +50,7 @@ def judged(connection: Connection, key: int, at: datetime) -> tuple[ChangeVerdic
         events=events_of(connection, row.machine, made.instruments),
         due=due_of(made, row.interval_days, row.grace_days, days(at)),
         alarm=shown(connection, open_alarm(connection, series=key)),
-    ), prior
+    ), kept
 
 
 def events_of(connection: Connection, machine: int, serials: tuple[str, ...]) -> tuple[Event, ...]:

@@ -21,43 +21,35 @@ LEAST = 3
 """Machines with the same indicator, below which all indicators of its kind are looked at."""
 
 
-def prior_of(connection: Connection, key: int, made: Series) -> Prior | None:
-    """The scatter that other machines lead to expect; None where the series has no baseline.
+KeptPrior = dict[str, Any] | None
+"""What is kept of a prior: its numbers, and the baseline, version and indicators that they were found for."""
+
+
+def prior_of(connection: Connection, key: int, software: str, made: Series) -> tuple[Prior | None, KeptPrior]:
+    """The scatter that other machines lead to expect, and what is kept of it; none where the series has no baseline.
 
     Where fewer than three other machines have an indicator it is NaN: the kind's own reproducibility holds there.
+
+    Parameters
+    ----------
+    connection : Connection
+    key : int
+        Of the series.
+    software : str
+        That it counts with.
+    made : Series
     """
-    own = connection.execute(
-        select(baseline.c.id, series.c.software)
-        .join(series, series.c.id == baseline.c.series)
-        .where(baseline.c.series == key)
-        .order_by(baseline.c.id.desc())
-        .limit(1)
-    ).one_or_none()
+    own = connection.scalar(select(func.max(baseline.c.id)).where(baseline.c.series == key))
     if own is None:
-        return None
-    kept = connection.scalar(select(series_state.c.verdict).where(series_state.c.series == key))
-    facts = (kept or {}).get("prior") or {}
-    if facts.get("of") == _of(own.id, own.software, made.indicators):
-        return _prior(facts["deviation"], facts["degrees_of_freedom"])
-    return _absolute(_fleet(connection, key, own.id, made), made, own_mean(connection, own.id, made))
-
-
-def facts_of(connection: Connection, key: int, made: Series, prior: Prior | None) -> dict[str, Any] | None:
-    """What is kept of a prior: its numbers, and for which baseline, version and indicators they were found."""
-    if prior is None:
-        return None
-    row = connection.execute(
-        select(baseline.c.id, series.c.software)
-        .join(series, series.c.id == baseline.c.series)
-        .where(baseline.c.series == key)
-        .order_by(baseline.c.id.desc())
-        .limit(1)
-    ).one()
-    return {
-        "of": _of(row.id, row.software, made.indicators),
-        "deviation": [number(one) for one in prior.deviation],
-        "degrees_of_freedom": [number(one) for one in prior.degrees_of_freedom],
-    }
+        return None, None
+    of = [own, software, *made.indicators]
+    state = connection.scalar(select(series_state.c.verdict).where(series_state.c.series == key))
+    kept = (state or {}).get("prior")
+    if kept and kept["of"] == of:
+        return _prior(kept["deviation"], kept["degrees_of_freedom"]), kept
+    found = _absolute(_fleet(connection, key, own, made), made, own_mean(connection, own, made))
+    numbers = {name: [number(one) for one in getattr(found, name)] for name in ("deviation", "degrees_of_freedom")}
+    return found, {"of": of, **numbers}
 
 
 def number(value: float) -> float | None:
@@ -73,10 +65,6 @@ def own_mean(connection: Connection, key: int, made: Series) -> np.ndarray[Any, 
     known = np.isfinite(values)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.asarray(np.where(known, values, 0.0).sum(axis=0) / known.sum(axis=0))
-
-
-def _of(key: int, software: str, indicators: Iterable[str]) -> list[Any]:
-    return [key, software, *indicators]
 
 
 def _prior(deviation: Iterable[float | None], freedom: Iterable[float | None]) -> Prior:

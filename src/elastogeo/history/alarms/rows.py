@@ -58,10 +58,10 @@ class Kept:
 def alarms(connection: Connection, *which: ColumnElement[bool]) -> tuple[Kept, ...]:
     """The alarms that fit, oldest first, each with its steps."""
     rows = connection.execute(select(alarm).where(*which).order_by(alarm.c.id)).all()
+    if not rows:
+        return ()
     steps: dict[int, list[tuple[int, Step]]] = {row.id: [] for row in rows}
-    taken = connection.execute(
-        select(alarm_step).where(alarm_step.c.alarm.in_(select(alarm.c.id).where(*which))).order_by(alarm_step.c.id)
-    )
+    taken = connection.execute(select(alarm_step).where(alarm_step.c.alarm.in_(list(steps))).order_by(alarm_step.c.id))
     for row in taken:
         steps[row.alarm].append((row.id, Step(row.state, row.facts, row.test, row.at, row.who, row.why)))
     return tuple(

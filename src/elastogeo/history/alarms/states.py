@@ -17,12 +17,11 @@ from elastogeo.changes import (
     ChangeVerdict,
     FleetState,
     MachineRow,
-    Prior,
     Rule,
     fleet_state,
     machine_row,
 )
-from elastogeo.history.alarms.priors import facts_of
+from elastogeo.history.alarms.priors import KeptPrior
 from elastogeo.history.series_of import days, instant
 from elastogeo.history.store.schema import machine, series, series_state
 
@@ -49,7 +48,7 @@ class Waiting:
     by: int | None = None
 
 
-def keep(connection: Connection, key: int, verdict: ChangeVerdict, prior: Prior | None, waiting: Waiting) -> None:
+def keep(connection: Connection, key: int, verdict: ChangeVerdict, prior: KeptPrior, waiting: Waiting) -> None:
     """Write the state of a series; its version grows only if something changed.
 
     Parameters
@@ -59,7 +58,7 @@ def keep(connection: Connection, key: int, verdict: ChangeVerdict, prior: Prior 
     key : int
         Of the series.
     verdict : ChangeVerdict
-    prior : Prior or None
+    prior : dict or None
         That it was judged with.
     waiting : Waiting
     """
@@ -80,7 +79,7 @@ def keep(connection: Connection, key: int, verdict: ChangeVerdict, prior: Prior 
         "verdict": {
             "row": replace(machine_row(verdict), overdue=0.0).document(),
             "waits": _waits(verdict, waiting, was),
-            "prior": facts_of(connection, key, made, prior),
+            "prior": prior,
             "seen": seen,
         },
     }
