@@ -15,7 +15,7 @@ from elastogeo.report import html_page, view_of
 from elastogeo.report.changes.answers import drift_said
 from elastogeo.report.changes.dates import date_ticks
 from elastogeo.report.changes.events import letter
-from elastogeo.report.changes.words import changed, date_said, days_said, iso_date, to_place_of
+from elastogeo.report.changes.words import change_said, changed, date_said, days_said, iso_date, to_place_of
 from elastogeo.report.drawing.style import house_style
 from elastogeo.report.drawing.svg import drawn
 from tests.report.changes.cases import CASES, DAY_ONE, collision, guideway, healthy, many, nothing, suspect, two_tests
@@ -73,7 +73,7 @@ def test_the_sentence_of_a_guideway_says_size_side_date_and_component():
     lost = -100 * worst.change / worst.mean
     assert view.sentence.startswith(f"Hermle C50 no. 3 is {lost:.0f} % softer in X than its baseline (95 %: ")
     assert f"since {date_said(worst.change_point.date)}, and it goes on" in view.sentence
-    assert view.sentence.endswith("this points to the X guideway.")
+    assert view.sentence.endswith("this points to the X guideway, or to what this series cannot tell from it.")
     low, high = (float(x) for x in re.search(r"95 %: ([\d.]+) to ([\d.]+) %", view.sentence).groups())
     assert low < lost < high
     assert "This series cannot tell the X guideway from the X carriage." in view.advice
@@ -202,6 +202,28 @@ def test_a_series_without_tests_or_with_two_has_a_page():
     assert "2 tests and no baseline" in view.sentence
     assert view.document["next"] == "Make 4 more tests, then set a baseline of 6 tests or more."
     assert view.document["chart"]["baseline"] is None
+
+
+def test_components_that_are_alike_are_named_once():
+    verdict = guideway()
+    first, second = verdict.causes
+    alike = replace(first, component="carriage X", alike=("guideway X",), score=first.score)
+    several = replace(verdict, causes=(first, alike, replace(second, component="rotary axis C", score=0.8, share=0.9)))
+    assert view_of(several).sentence.endswith("this points to the X guideway or the C axis.")
+    assert view_of(several).document["points_to"] == ["guideway X", "rotary axis C"]
+
+
+def test_many_simulations_are_named_by_the_first_and_their_number():
+    verdict = guideway()
+    named = replace(verdict, series=replace(verdict.series, simulated="; ".join(f"seed {k}" for k in range(12))))
+    assert view_of(named).origin == "Simulated: seed 0 and 11 more"
+    assert view_of(named).document["simulated"].count("seed") == 12
+
+
+def test_no_change_has_no_sign():
+    one = guideway()["stiffness Y"]
+    assert change_said(replace(one, change=1e-9, change_interval=(-300.0, 300.0))) == "0.0 %"
+    assert change_said(replace(one, change=-200.0, change_interval=(-500.0, 100.0))).startswith("−")
 
 
 def test_free_text_is_shown_as_text():

@@ -88,17 +88,26 @@ def sentence_of_change(verdict: ChangeVerdict) -> str:
 
 
 def points_to(verdict: ChangeVerdict) -> tuple[str, ...]:
-    """The components that the changed set points to, the likeliest first; none where no component explains the changes."""
+    """The components that the changed set points to, the likeliest first, of those that are alike the first one.
+
+    None where no component explains the changes.
+    """
     causes = [cause for cause in verdict.causes if cause.share >= _EXPLAINED]
     if not causes:
         return ()
-    named = [cause.component for cause in causes if cause.score >= _LIKELY * causes[0].score]
+    likely = [cause for cause in causes if cause.score >= _LIKELY * causes[0].score]
+    named: list[str] = []
+    for cause in likely:
+        if not any(cause.component in other.alike for other in likely if other.component in named):
+            named.append(cause.component)
     return tuple(dict.fromkeys(named))[:_MOST_NAMED]
 
 
 def component_said(component: str) -> str:
     """A component in a sentence: `the X guideway`, `the squareness of X and Y`, `the spindle side`."""
     noun, _, axes = component.rpartition(" ")
+    if noun == "rotary axis":
+        return f"the {axes} axis"
     if noun and axes.isupper() and len(axes) == 1:
         return f"the {axes} {noun}"
     if noun and axes.isupper() and len(axes) == 2:
@@ -181,8 +190,14 @@ def _alarm(verdict: ChangeVerdict, machine: str) -> str:
     said = f"{said} (95 %: {change_interval_said(worst, signed=False)}){since}{goes_on}"
     named = points_to(verdict)
     if named:
-        return f"{said}; this points to {_either(named)}."
+        alike = ", or to what this series cannot tell from it" if _alike(verdict, named) else ""
+        return f"{said}; this points to {_either(named)}{alike}."
     return f"{said}." if not verdict.causes else f"{said}; no single component explains it."
+
+
+def _alike(verdict: ChangeVerdict, named: tuple[str, ...]) -> bool:
+    """Whether the one component that is named has others that this series cannot tell from it."""
+    return len(named) == 1 and any(named[0] in group and len(group) > 1 for group in verdict.cannot_tell)
 
 
 def _compares(one: IndicatorState) -> bool:

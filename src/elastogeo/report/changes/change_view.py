@@ -29,6 +29,7 @@ from elastogeo.report.changes.words import (
     month_said,
     short_date,
     shown_unit,
+    simulated_said,
     title_of,
     value_said,
 )
@@ -43,12 +44,12 @@ if TYPE_CHECKING:
 @views(ChangeVerdict)
 def change_view(verdict: ChangeVerdict) -> View:
     """All that is shown of a verdict."""
-    document, worst, simulated = change_json(verdict), worst_of(verdict), verdict.series.simulated
+    document, worst = change_json(verdict), worst_of(verdict)
     return View(
         kind="Change",
         title=machine_of(verdict),
         subtitle=subtitle(verdict),
-        origin=f"Simulated: {simulated}" if simulated else "",
+        origin=simulated_said(verdict.series.simulated),
         badge=badge(verdict),
         head=tuple(_head(verdict)),
         sentence=sentence_of_change(verdict),

@@ -39,7 +39,9 @@ def row_said(row: MachineRow) -> str:
     """What there is to say of a machine, short: `11 % softer in X; points to the X guideway`."""
     parts = [_state_said(row)]
     if row.points_to and row.state == ALARM:
-        parts.append(f"points to {' or '.join(map(component_said, row.points_to[:2]))}")
+        more = len(row.points_to) - 1
+        others = f" or {more} {'other' if more == 1 else 'others'}" if more else ""
+        parts.append(f"points to {component_said(row.points_to[0])}{others}")
     if row.overdue > 0:
         parts.append(f"test overdue by {days_said(row.overdue)}")
     if row.held_by:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from elastogeo.changes import ALARM, MACHINE_STATES, NO_BASELINE, OVERDUE, STEADY, SUSPECT, WATCH, FleetState
 from elastogeo.report.changes.fleet_document import fleet_json
 from elastogeo.report.changes.fleet_rows import fleet_table, move_said, move_table, predicate_of
-from elastogeo.report.changes.words import MARKS, TONES, date_said, title_of
+from elastogeo.report.changes.words import MARKS, TONES, date_said, simulated_said, title_of
 from elastogeo.report.text import listed
 from elastogeo.report.view import Badge, KeyValue, Section, View, views
 
@@ -52,7 +52,8 @@ def _origin(fleet: FleetState) -> str:
     if not simulated:
         return ""
     some = f" ({len(simulated)} of {_machines(len(fleet.machines))})" if len(simulated) < len(fleet.machines) else ""
-    return f"Simulated{some}: {'; '.join(dict.fromkeys(row.simulated for row in simulated))}"
+    said = simulated_said("; ".join(dict.fromkeys(row.simulated for row in simulated)))
+    return said.replace("Simulated", f"Simulated{some}", 1)
 
 
 def _badge(fleet: FleetState) -> Badge | None:

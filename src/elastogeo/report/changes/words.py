@@ -104,7 +104,8 @@ def change_said(one: IndicatorState) -> str:
     factor, unit = _scale(one)
     half = (max(one.change_interval) - min(one.change_interval)) / 2
     number = to_place_of(one.change * factor, half * factor)
-    return f"{number if number.startswith('−') or not one.change else f'+{number}'} {unit}"
+    rises = one.change > 0 and any(digit in number for digit in "123456789")
+    return f"{'+' if rises else ''}{number} {unit}"
 
 
 def change_interval_said(one: IndicatorState, signed: bool = True) -> str:
@@ -170,3 +171,9 @@ def size_said(size: float) -> str:
 def least_said(one: IndicatorState) -> str:
     """Least change of an indicator that matters, with its unit."""
     return " ".join(_size(one, one.relevance))
+
+
+def simulated_said(simulated: str) -> str:
+    """From what tests are simulated: of many simulations the first and how many more there are; empty for none."""
+    first, *others = simulated.split("; ")
+    return f"Simulated: {first}{f' and {len(others)} more' if others else ''}" if simulated else ""
