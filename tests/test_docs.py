@@ -28,6 +28,7 @@ PAGES = (
     "campaigns.md",
     "planning.md",
     "history.md",
+    "changes.md",
 )
 
 

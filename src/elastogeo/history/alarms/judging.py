@@ -82,8 +82,8 @@ def shown(connection: Connection, kept: Kept | None) -> OpenAlarm | None:
         return None
     known = next((step for step in reversed(kept.steps) if step.state == ACKNOWLEDGED), None)
     if known is None or known.at is None or not is_acknowledged(kept.steps):
-        return OpenAlarm(days(kept.opened), held_by=_holder(connection, kept))
-    return OpenAlarm(days(kept.opened), days(known.at), known.who, known.why, _holder(connection, kept))
+        return OpenAlarm(days(kept.opened), held_by=_holder(connection, kept), number=kept.key)
+    return OpenAlarm(days(kept.opened), days(known.at), known.who, known.why, _holder(connection, kept), kept.key)
 
 
 def _holder(connection: Connection, kept: Kept) -> str:

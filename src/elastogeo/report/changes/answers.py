@@ -270,7 +270,8 @@ def _after_alarm(verdict: ChangeVerdict) -> str:
         return f"Repeat the test, since nothing has confirmed the change; then {look}, or close the alarm as false."
     known = verdict.alarm
     if known is not None and known.acknowledged is None:
-        return f"Acknowledge the alarm and {look}; after the repair close it with a new baseline, or close it as false."
+        which = "the alarm" if known.number is None else f"alarm {known.number}"
+        return f"Acknowledge {which} and {look}; after the repair close it with a new baseline, or close it as false."
     by = f" {known.who} acknowledged it on {date_said(known.acknowledged)}." if known is not None and known.who else ""
     return f"{_capital(look)}; after the repair close the alarm with a new baseline, or close it as false.{by}"
 

@@ -3,7 +3,7 @@
 machine, series, simulated : whose tests, by which recipe; from what they are simulated, empty if they were measured
 state, since, sentence : `alarm`, `suspect`, `watch`, `no baseline`, `steady`; since when; the answer
 points_to, cannot_tell, next, next_test : components, sets of components, what to do, when the next test is due
-alarm : {opened, acknowledged, who, why, held_by}, or null
+alarm : {number, opened, acknowledged, who, why, held_by}, or null
 indicators : [{code, kind, unit, now, u, mean, s, df, limit, change, change95, state, since, since95, drift, spark}]
     `u` is the standard uncertainty by the last test itself, `s` the standard deviation between tests, `spark` the values of
     the last tests; drift {per_year, per_year95, limit, limit_is, limit_at, limit_at95}, or null.
@@ -174,6 +174,7 @@ def _alarm(verdict: ChangeVerdict) -> dict[str, Any] | None:
     if one is None:
         return None
     return {
+        "number": one.number,
         "opened": iso_date(one.opened),
         "acknowledged": iso_date(one.acknowledged),
         "who": one.who,
