@@ -54,6 +54,9 @@ from elastogeo.history.requirements.intervals import set_interval
 from elastogeo.history.requirements.tolerances import kind_of, set_tolerance
 from elastogeo.history.series_of import days
 from elastogeo.history.store import Store, audit, now, open_store, read
+from elastogeo.history.upkeep.exports import export
+from elastogeo.history.upkeep.manifests import Copied
+from elastogeo.history.upkeep.raw_copies import Step, silent
 from elastogeo.planning import Plan
 
 
@@ -157,6 +160,10 @@ class History:
         from elastogeo.history.store.trail import audit_trail
 
         return audit_trail(self.store, last, subject, who)
+
+    def export(self, folder: str | Path, step: Step = silent) -> Copied:
+        """Write everything as files into a new folder."""
+        return export(self.store, folder, step)
 
     def machines(self) -> tuple[KnownMachine, ...]:
         """All machines, by name."""

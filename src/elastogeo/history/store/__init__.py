@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from elastogeo.history.store.clock import now
     from elastogeo.history.store.files import Files
     from elastogeo.history.store.making import Made, make_store
-    from elastogeo.history.store.opening import Store, open_store, read, write
+    from elastogeo.history.store.opening import Store, fill_store, open_store, read, write
 
 _found = first_use(
     __name__,
@@ -17,11 +17,11 @@ _found = first_use(
         "clock": "now",
         "files": "Files",
         "making": "Made make_store",
-        "opening": "Store open_store read write",
+        "opening": "Store fill_store open_store read write",
     },
 )
 
-__all__ = ["Files", "Made", "Store", "make_store", "now", "open_store", "read", "write"]
+__all__ = ["Files", "Made", "Store", "fill_store", "make_store", "now", "open_store", "read", "write"]
 
 
 def __getattr__(name: str) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import weakref
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +15,7 @@ from elastogeo.errors import StoreError
 from elastogeo.history.extra import needs_history_extra
 from elastogeo.history.store import audit
 from elastogeo.history.store.files import Files
-from elastogeo.history.store.migrations import check_revision, upgrade
+from elastogeo.history.store.migrations import check_revision, make_filled, upgrade
 from elastogeo.history.store.place import Place, place_of
 from elastogeo.history.store.postgresql import server_engine, take_turn
 from elastogeo.history.store.refusals import in_words
@@ -74,6 +74,35 @@ def open_store(url: str | Path, create: bool = False, *, files: str | Path | Non
     """
     with needs_history_extra():
         return _opened(place_of(url, files), create, who)
+
+
+def fill_store(url: str | Path, fill: Callable[[Connection], None], *, files: str | Path | None = None) -> Store:
+    """Make a history that holds what another held: its tables and all rows in one transaction.
+
+    Parameters
+    ----------
+    url, files : as in `open_store`
+    fill : callable
+        Puts the rows in, those of the audit trail too; they are frozen afterwards.
+
+    Raises
+    ------
+    StoreError
+        If there is something already, or there is no place for one.
+    """
+    with needs_history_extra():
+        place = place_of(url, files)
+        engine = _engine(place, True)
+        store = Store(engine, Files(place.files), place.url, None)
+        weakref.finalize(store, engine.dispose)
+        try:
+            store.files.make()
+            with _writing(store, migrates=True) as connection:
+                make_filled(connection, store.url, fill)
+        except BaseException:
+            engine.dispose()
+            raise
+        return store
 
 
 def _opened(place: Place, create: bool, who: str) -> Store:

@@ -7,6 +7,7 @@ number of steps, a migration is one transaction. Rows that are frozen are thawed
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from sqlalchemy import Connection, inspect, text
@@ -61,11 +62,7 @@ def upgrade(connection: Connection, url: str, who: str) -> str | None:
     """
     found = revision(connection)
     if found is None:
-        others = inspect(connection).get_table_names()
-        if others:
-            raise StoreError(
-                f"{url}: holds something else (the table {sorted(others)[0]}); give the history a place of its own"
-            )
+        _refuse_others(connection, url)
     else:
         _refuse_newer(found, url)
     if found == REVISIONS[-1]:
@@ -73,6 +70,30 @@ def upgrade(connection: Connection, url: str, who: str) -> str | None:
     _run(connection)
     audit.record(connection, who, "migrate", "schema", old=found, new=REVISIONS[-1], why=f"elastogeo {VERSION}")
     return found
+
+
+def make_filled(connection: Connection, url: str, fill: Callable[[Connection], None]) -> None:
+    """Make the tables, fill them with what another history held, and freeze them; in the caller's transaction.
+
+    Raises
+    ------
+    StoreError
+        If the database holds something already.
+    """
+    if revision(connection) is not None:
+        raise StoreError(f"{url}: holds a history already; name a place that holds nothing")
+    _refuse_others(connection, url)
+    _run(connection)
+    thaw(connection)
+    fill(connection)
+    freeze(connection)
+    _check_references(connection)
+
+
+def _refuse_others(connection: Connection, url: str) -> None:
+    others = inspect(connection).get_table_names()
+    if others:
+        raise StoreError(f"{url}: holds something else (the table {sorted(others)[0]}); give the history a place of its own")
 
 
 def _refuse_newer(found: str, url: str) -> None:
