@@ -16,7 +16,7 @@ def export(
     store: Store = STORE,
     as_json: AsJson = False,
 ) -> None:
-    """Write everything as files: a JSON line a row, the raw files by hash.
+    """Write everything as files: rows as JSON, raw files by hash.
 
     `history restore` makes a history of it again, on either database.
 
@@ -25,7 +25,7 @@ def export(
       elastogeo history export shop-2026-11
     """
     from elastogeo.cli import screen
-    from elastogeo.cli.history.copies import show_copied
+    from elastogeo.cli.copies import show_copied
 
     with eg.History(store) as history, screen.progress("rows", quiet=as_json) as step:
         copied = history.export(folder, step)

@@ -16,7 +16,7 @@ def restore(
     store: Store = STORE,
     as_json: AsJson = False,
 ) -> None:
-    """Make a history from a backup or an export, where there is none yet.
+    """Make a history from a backup or an export.
 
     Every row and every file is checked. What one database backed up may be restored into the other.
 
@@ -26,7 +26,7 @@ def restore(
       elastogeo history restore backup-2026-11-22 postgresql://me@server/shop
     """
     from elastogeo.cli import screen
-    from elastogeo.cli.history.copies import show_copied
+    from elastogeo.cli.copies import show_copied
     from elastogeo.history.upkeep import restore as restored
 
     with screen.progress("checking the copy", quiet=as_json) as step:
