@@ -72,14 +72,16 @@ def test_a_recorded_series_gives_its_scatter_its_interval_and_what_it_would_have
     assert result.baseline == 10
     assert result.judged == 20
     assert result.over == ("t29",)
-    assert result.relevance == pytest.approx([600.0, 1e-3], rel=0.05)
+    assert result.relevance == pytest.approx([0.03, 1e-3], rel=0.01)
     wide = try_rule(series((2000.0, 0.2e-3)), base(), machines=400, tests=12)
     assert found(wide, "stiffness X", STEP)[0][0] < found(result, "stiffness X", STEP)[0][0] / 3
 
 
 def test_blunders_cost_repeats_and_likeness_costs_false_alarms() -> None:
-    plain, blunders, alike = (try_rule(machines=400, **more) for more in ({}, {"blunders": 0.03}, {"correlation": 0.7}))
-    assert blunders.repeats > plain.repeats + 0.4
+    plain, blunders, alike = (
+        try_rule(machines=400, tests=24, **more) for more in ({}, {"blunders": 0.03}, {"correlation": 0.7})
+    )
+    assert blunders.repeats > plain.repeats + 0.25
     assert blunders.false_alarms < plain.false_alarms + 0.08
     assert alike.false_alarms > 2 * plain.false_alarms
 

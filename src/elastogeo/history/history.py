@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 from sqlalchemy import Connection
 
@@ -20,6 +21,7 @@ from elastogeo.changes import (
     Kind,
     MachineState,
     Recomputed,
+    RuleTest,
     Tolerance,
     machine_state,
 )
@@ -142,6 +144,10 @@ class History:
         """Add an instrument, or say more of one that is there: a calibration, and until when it holds."""
         said = {"kind": kind, "calibrated": calibrated, "due": due, "certificate": certificate}
         return add_instrument(self.store, serial, who=self.who, **said)
+
+    def try_rule(self, machine: str, series: str = "", **how: Any) -> RuleTest:
+        """Try the rule on a series: false alarms and delay; `how` as `history.alarms.try_rule_of` takes it."""
+        return alarms.try_rule_of(self.store, machine, series, **how)
 
     def add_event(
         self, kind: str, note: str, *, machine: str | None = None, instrument: str | None = None, at: str = ""

@@ -23,7 +23,7 @@ class FaultFound(Part):
     shape : str
         `STEP` or `DRIFT`.
     size : float
-        Of the step, or in a year; in the unit of the kind.
+        Of the step, or in a year: in the unit of the kind, or as a share of the baseline's mean where the kind is relative.
     deviations : float
         The same in standard deviations between tests, of the machine's own baseline.
     soon : float
@@ -58,7 +58,7 @@ class RuleTest(Result):
     indicators : tuple of str, length q
     kinds : tuple of Kind, length q
     relevance : array, shape (q,)
-        Least change that matters, in the units of the kinds.
+        Least change that matters, as the size of a fault counts.
     baseline : int
         Tests of it, the fewest of any indicator.
     interval : float [d]

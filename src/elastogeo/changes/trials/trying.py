@@ -126,13 +126,15 @@ def try_rule(
     at, repeats = first_alarms(truth, rule, np.zeros((tests, len(kinds))), scatter, random)
     fewer, least = draw(max(machines // _FAULTED, 1)), np.broadcast_to(truth.reference.relevance, truth.mean.shape)[0]
     courses = _courses(least, tests, interval)
+    relative = [kind.relative for kind in kinds.values()]
+    scale = np.where(relative, 1.0 if reference is None else np.abs(reference.mean), 1.0)
     return RuleTest(
         name=name,
         simulated=made,
         rule=rule,
         indicators=tuple(kinds),
         kinds=tuple(kinds.values()),
-        relevance=least,
+        relevance=least / scale,
         baseline=fewest,
         interval=interval,
         tests=tests,
@@ -142,7 +144,7 @@ def try_rule(
         alarmed=int(np.sum(np.any(at <= tests, axis=1))),
         repeats=repeats,
         faults=tuple(
-            _found(name, shape, float(size[k]), float(size[k] / typical), at[:, k], tests)
+            _found(name, shape, float(size[k] / scale[k]), float(size[k] / typical), at[:, k], tests)
             for shape, size, at in [
                 (shape, size, first_alarms(fewer, rule, course, scatter, random)[0]) for shape, size, course in courses
             ]

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from elastogeo.history.alarms.open_ones import standing
     from elastogeo.history.alarms.silences import silence_machine
     from elastogeo.history.alarms.states import fleet
+    from elastogeo.history.alarms.trying import try_rule_of
 
 _found = first_use(
     __name__,
@@ -31,6 +32,7 @@ _found = first_use(
         "open_ones": "standing",
         "silences": "silence_machine",
         "states": "fleet",
+        "trying": "try_rule_of",
     },
 )
 
@@ -48,6 +50,7 @@ __all__ = [
     "silence_machine",
     "standing",
     "try_recipient",
+    "try_rule_of",
 ]
 
 
