@@ -25,7 +25,7 @@ if TYPE_CHECKING:
         read_calibration,
         write_calibration,
     )
-    from elastogeo.formats.documents.campaigns import read_campaign
+    from elastogeo.formats.documents.campaigns import CampaignParts, campaign_parts, read_campaign
     from elastogeo.formats.documents.cuts import read_cut
     from elastogeo.formats.documents.designs import Design, read_design
     from elastogeo.formats.documents.feed_drives import read_drives
@@ -77,6 +77,7 @@ __all__ = [
     "INITIAL",
     "SCHEMA",
     "CalibrationDocument",
+    "CampaignParts",
     "Channel",
     "ChannelUse",
     "Clock",
@@ -100,6 +101,7 @@ __all__ = [
     "TestWithFiles",
     "Writing",
     "calibration_text",
+    "campaign_parts",
     "compensation_format",
     "compensation_formats",
     "compensation_text",
@@ -165,7 +167,7 @@ __getattr__ = first_use(
         "compensation_text read_back read_compensation",
         "documents.calibrations": "CalibrationDocument DeflectionDocument "
         "calibration_text read_calibration write_calibration",
-        "documents.campaigns": "read_campaign",
+        "documents.campaigns": "CampaignParts campaign_parts read_campaign",
         "documents.cuts": "read_cut",
         "documents.designs": "Design read_design",
         "documents.feed_drives": "read_drives",

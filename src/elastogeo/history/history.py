@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -27,6 +26,7 @@ from elastogeo.changes import (
 )
 from elastogeo.changes.alarms import AlarmList, Delivery
 from elastogeo.errors import ElastogeoError, StoreError
+from elastogeo.formats import campaign_parts
 from elastogeo.history import alarms
 from elastogeo.history.alarms.assessing import assess
 from elastogeo.history.alarms.judging import judged
@@ -35,6 +35,7 @@ from elastogeo.history.analyses import (
     analyse,
     due_date,
     finish_plan,
+    keep_parts,
     keep_plan,
     plans,
     read_plan,
@@ -48,7 +49,7 @@ from elastogeo.history.intake.happenings import Happened, record_event
 from elastogeo.history.intake.imports import Imported, import_test
 from elastogeo.history.intake.instruments import KnownInstrument, add_instrument
 from elastogeo.history.intake.machines import KnownMachine, add_machine, machine_named, machines
-from elastogeo.history.intake.notebook import Notebook
+from elastogeo.history.intake.notebook import notebook_of
 from elastogeo.history.intake.watching import EVERY, SETTLE, Seen, Watch
 from elastogeo.history.names import KnownSeries, series_named, series_of_machine
 from elastogeo.history.requirements.baselines import Chosen, choose, set_baseline
@@ -75,6 +76,8 @@ class Added:
         What its series says then.
     unanalysed : str
         Why it says nothing there; empty if it does.
+    campaign : str
+        Of a campaign, what became of it, in words; its tests came before.
     error : str
         Why it was refused; empty if it was not.
     """
@@ -83,6 +86,7 @@ class Added:
     imported: Imported | None
     verdict: ChangeVerdict | None = None
     unanalysed: str = ""
+    campaign: str = ""
     error: str = ""
 
     @property
@@ -184,6 +188,7 @@ class History:
         repeats: str | int | None = None,
         date: str = "",
         undated: str = "",
+        instrument: str = "",
     ) -> Added:
         """Import one test, and say what the history says of its machine then.
 
@@ -199,6 +204,8 @@ class History:
             When it was measured, if the test does not say it.
         undated : str
             When it counts as measured if neither says it.
+        instrument : str
+            Serial number of the instrument, if the test does not say it.
 
         Raises
         ------
@@ -206,7 +213,7 @@ class History:
             If it is no test, or machine or date are not said; nothing was imported then.
         """
         path = Path(path)
-        asked = {"machine": machine, "repeats": repeats, "date": date, "undated": undated}
+        asked = {"machine": machine, "repeats": repeats, "date": date, "undated": undated, "instrument": instrument}
         imported = import_test(self.store, path, who=self.who, was_suspect=_was_suspect, **asked)  # type: ignore[arg-type]
         analysis = analyse(self.store, imported.test, self.who)
         return Added(
@@ -220,7 +227,9 @@ class History:
     def add_all(
         self, path: str | Path, *, machine: str | None = None, date: str = "", dates_of_files: bool = False
     ) -> Iterator[Added]:
-        """Import every test in a folder, the oldest first; one that is refused is told, and the others come in.
+        """Import every test of a folder or a campaign, the oldest first; one that is refused is told, the others come in.
+
+        A campaign is kept as such when all its tests are in.
 
         Raises
         ------
@@ -229,13 +238,24 @@ class History:
         StoreError
             If the history cannot be written.
         """
-        for test in in_order(paths_of_tests(path)):
+        parts = campaign_parts(path)
+        places = parts.tests.values() if parts else paths_of_tests(path)
+        serials = {parts.tests[said]: serial for said, serial in parts.serials.items()} if parts else {}
+        found = {}
+        for test in in_order(places):
+            undated = written(test) if dates_of_files else ""
             try:
-                yield self.add(test, machine=machine, date=date, undated=written(test) if dates_of_files else "")
+                added = self.add(test, machine=machine, date=date, undated=undated, instrument=serials.get(test, ""))
+                found[test] = added.imported
             except StoreError:
                 raise
             except ElastogeoError as error:
-                yield Added(test, None, error=str(error))
+                added = Added(test, None, error=str(error))
+            yield added
+        if parts:
+            keys = {said: got.test for said, place in parts.tests.items() if (got := found.get(place))}
+            kept, refused = keep_parts(self.store, parts, keys, self.who)
+            yield Added(parts.file, None, campaign=kept, error=refused)
 
     def verdict(self, machine: str, series: str = "") -> ChangeVerdict:
         """Whether a machine has changed, by one series of its tests: its only one, or the one with this in its name.
@@ -448,8 +468,7 @@ class History:
             Without a change after which a file counts as written; between two looks.
         """
         place = Path(folder).resolve()
-        name = hashlib.sha256(str(place).encode()).hexdigest()[:16]
-        notebook = Notebook(self.store.files.folder / "watched" / f"{name}.jsonl")
+        notebook = notebook_of(self.store.files, place)
         if again:
             notebook.forget()
 

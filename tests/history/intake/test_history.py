@@ -8,7 +8,7 @@ from elastogeo.changes import ALARM, NO_BASELINE, STEADY
 from elastogeo.errors import InputError
 from elastogeo.history.intake.imports import import_test
 from elastogeo.history.store import read
-from elastogeo.history.store.schema import analysis, outbox, series_state
+from elastogeo.history.store.schema import analysis, instrument, outbox, series_state
 from tests.history.intake.small_tests import write_test
 
 
@@ -60,3 +60,39 @@ def test_a_softer_machine_alarms_and_setting_aside_quiets_it(history, tmp_path, 
     with read(history.store) as connection:
         assert connection.execute(select(series_state.c.state)).scalar() == STEADY
         assert connection.execute(select(func.count()).select_from(outbox)).scalar() == 0  # nobody is to be told
+
+
+CAMPAIGN = """\
+schema = "elastogeo.campaign/1"
+name = "Two circles"
+tests = ["xy", "again"]
+
+[[instruments]]
+serial = "B7"
+tests = ["xy", "again"]
+"""
+
+
+@pytest.mark.parametrize("kind", ["truncate"])
+def test_a_campaign_comes_in_with_its_tests_once(history, tmp_path):
+    write_test(tmp_path / "c" / "xy", date="2026-02-01")
+    write_test(tmp_path / "c" / "again", date="2026-01-01", seed=1)
+    (tmp_path / "c" / "campaign.toml").write_text(CAMPAIGN)
+    found = list(history.add_all(tmp_path / "c", machine="Mill 3"))
+    assert [one.path.name for one in found] == ["again", "xy", "campaign.toml"]
+    assert found[2].error == ""
+    assert found[2].campaign == "Campaign 1: Two circles, 2 tests, Mill 3"
+    with read(history.store) as connection:
+        assert connection.execute(select(instrument.c.serial)).scalars().all() == ["B7"]
+    again = list(history.add_all(tmp_path / "c" / "campaign.toml", machine="Mill 3"))
+    assert [one.new for one in again] == [False, False, False]
+    assert again[2].campaign == "Campaign 1 is known, nothing was changed: Two circles"
+
+
+@pytest.mark.parametrize("kind", ["truncate"])
+def test_a_campaign_that_lacks_a_test_is_not_kept(history, tmp_path):
+    write_test(tmp_path / "xy")
+    (tmp_path / "campaign.toml").write_text(CAMPAIGN)
+    found = list(history.add_all(tmp_path, machine="Mill 3"))
+    assert [bool(one.error) for one in found] == [False, True, True]
+    assert "is not kept, since its tests did not all come in: again" in found[2].error

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -88,6 +88,47 @@ def read_campaign(paths: str | Path | Sequence[str | Path], planned: int = 0) ->
         return found[0]
     tests = _each_once((name, test) for campaign in found for name, test in campaign.tests.items())
     return Campaign(" + ".join(tests), tests)
+
+
+@dataclass(frozen=True, slots=True)
+class CampaignParts:
+    """A campaign file with the places of its tests, of which none is opened.
+
+    Attributes
+    ----------
+    file : Path
+    text : str
+        As it stands.
+    name : str
+    tests : mapping of str to Path
+        By what the file calls them.
+    serials : mapping of str to str
+        Serial numbers of the instruments of tests that do not say them themselves, by the same.
+    """
+
+    file: Path
+    text: str
+    name: str
+    tests: Mapping[str, Path]
+    serials: Mapping[str, str]
+
+
+def campaign_parts(path: str | Path) -> CampaignParts | None:
+    """The campaign that a path means; None if it means none.
+
+    Raises
+    ------
+    FormatError
+        If the file is not what it must be.
+    """
+    file = campaign_file(Path(path))
+    if file is None:
+        return None
+    document = _document(file)
+    tests = {said: file.parent / said for said in document.tests}
+    serials = {name: one.serial for one in document.instruments for name in one.tests}
+    known = {said: serials[name_of(place)] for said, place in tests.items() if name_of(place) in serials}
+    return CampaignParts(file, file.read_text("utf-8-sig"), document.name, tests, known)
 
 
 def _read(path: Path, planned: int) -> Campaign:

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
         campaign_text,
         campaigns,
         keep_campaign,
+        keep_parts,
         kept_campaign,
         recompute_campaign,
     )
@@ -24,6 +25,7 @@ __all__ = [
     "due_date",
     "finish_plan",
     "keep_campaign",
+    "keep_parts",
     "keep_plan",
     "kept_campaign",
     "last_analysis",
@@ -39,7 +41,7 @@ __getattr__ = first_use(
     __name__,
     {
         "analysing": "PROGRAM analyse last_analysis unanalysed",
-        "kept_campaigns": "campaign_text campaigns keep_campaign kept_campaign recompute_campaign",
+        "kept_campaigns": "campaign_text campaigns keep_campaign keep_parts kept_campaign recompute_campaign",
         "kept_plans": "due_date finish_plan keep_plan plans read_plan",
         "recomputing": "outdated recompute",
     },

@@ -18,8 +18,8 @@ from typing import Any, cast
 from sqlalchemy import Connection, insert, select, update
 
 from elastogeo.changes import Differing, KeptCampaign
-from elastogeo.errors import ElastogeoError, FormatError, InputError
-from elastogeo.formats import read_campaign
+from elastogeo.errors import ElastogeoError, FormatError, InputError, StoreError, several
+from elastogeo.formats import CampaignParts, read_campaign
 from elastogeo.history.analyses.analysing import PROGRAM
 from elastogeo.history.analyses.computation import made_with, sha256_of
 from elastogeo.history.analyses.differences import differences
@@ -87,6 +87,41 @@ def keep_campaign(store: Store, text: str, tests: Mapping[str, int], who: str = 
         new = {"name": document["name"], "tests": dict(tests), "document_sha256": content["document_sha256"]}
         audit.record(connection, who, "keep campaign", f"campaign {key}", new=new)
         return kept_campaign(connection, key)
+
+
+def keep_parts(store: Store, parts: CampaignParts, keys: Mapping[str, int], who: str = PROGRAM) -> tuple[str, str]:
+    """Keep a campaign whose tests were imported, once.
+
+    Parameters
+    ----------
+    store : Store
+    parts : CampaignParts
+    keys : mapping of str to int
+        Of its tests that are in the history, by what its file calls them.
+    who : str
+
+    Returns
+    -------
+    str
+        What became of it; empty if it was not kept.
+    str
+        Why it was not.
+    """
+    missing = [said for said in parts.tests if said not in keys]
+    if missing:
+        return "", f"{parts.file}: is not kept, since its tests did not all come in: {several(missing)}"
+    with read(store) as connection:
+        every = [kept_campaign(connection, key) for key in campaigns(connection)]
+    same = next((one for one in every if one.name == parts.name and dict(one.tests) == dict(keys)), None)
+    if same:
+        return f"Campaign {same.key} is known, nothing was changed: {same.name}", ""
+    try:
+        kept = keep_campaign(store, parts.text, keys, who)
+    except StoreError:
+        raise
+    except ElastogeoError as error:
+        return "", f"{parts.file}: {error}"
+    return f"Campaign {kept.key}: {kept.name}, {len(keys)} tests, {kept.machine}", ""
 
 
 def recompute_campaign(store: Store, key: int, who: str = PROGRAM) -> KeptCampaign:

@@ -7,7 +7,7 @@ once make one test. Files are kept before the database names them: a crash betwe
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
@@ -74,7 +74,7 @@ def import_test(
     repeats: str | int | None = None,
     date: str = "",
     undated: str = "",
-    about: About | None = None,
+    instrument: str = "",
     was_suspect: WasSuspect | None = None,
 ) -> Imported:
     """Import one test.
@@ -94,8 +94,8 @@ def import_test(
         When it was measured, if the test does not say it.
     undated : str
         When it counts as measured if neither says it.
-    about : About, optional
-        In place of the test's own: what a campaign adds to it.
+    instrument : str
+        Serial number of the instrument, if the test does not say it: a campaign may.
     was_suspect : callable, optional
         As of `repeated_by`.
 
@@ -110,7 +110,9 @@ def import_test(
         If the history cannot be written; nothing of the test is in it then.
     """
     found = path if isinstance(path, TestWithFiles) else read_with_files(path)
-    about = about or found.test.about
+    about = found.test.about
+    if instrument and not about.instrument_serial:
+        about = replace(about, instrument_serial=instrument)
     sha256 = found.sha256
     with read(store) as connection:
         known = _known(connection, sha256, machine, found)

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from pathlib import Path
 
 from elastogeo.errors import StoreError
+from elastogeo.history.store import Files
+
+
+def notebook_of(files: Files, folder: Path) -> Notebook:
+    """The notes of the watch over a folder, beside the raw files."""
+    name = hashlib.sha256(str(folder).encode()).hexdigest()[:16]
+    return Notebook(files.folder / "watched" / f"{name}.jsonl")
 
 
 class Notebook:

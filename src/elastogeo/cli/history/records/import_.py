@@ -24,7 +24,9 @@ Machine = Annotated[str | None, typer.Option("--machine", "-m", help="The machin
 
 
 def import_(
-    paths: Annotated[list[Path], typer.Argument(metavar="PATH...", help="A test, or a folder with tests in folders in it.")],
+    paths: Annotated[
+        list[Path], typer.Argument(metavar="PATH...", help="A test, a campaign, or a folder with tests in it.")
+    ],
     machine: Machine = None,
     repeats: Annotated[
         str | None, typer.Option(help="The suspect test that this one repeats: its number, last, or none; else found.")
@@ -60,8 +62,9 @@ def import_(
     if as_json:
         screen.show_json({"schema": "elastogeo.imports/1", "tests": [_document(one) for one in found]})
     elif len(found) > 1:
-        new = sum(1 for one in found if one.imported and one.imported.new)
-        screen.say(f"{new} new, {len(found) - new - len(refused)} known already, {len(refused)} refused.")
+        new = sum(one.new for one in found)
+        known = sum(one.imported is not None and not one.new for one in found)
+        screen.say(f"{new} new, {known} known already, {len(refused)} refused.")
     if refused:
         raise typer.Exit(2)
 
@@ -83,7 +86,7 @@ def lines_of(one: Added, brief: bool = False) -> list[str]:
     """What became of a test, in lines for a person; `brief` leaves out what its machine has."""
     got = one.imported
     if got is None:
-        return [one.error]
+        return [one.error or one.campaign]
     known = "" if got.new else " is known, nothing was changed"
     state = f": {_state(one)}" if one.verdict else ""
     head = f"Test {got.test}{known}: {got.name}, {got.machine}, {got.at:%Y-%m-%d}, {got.series_name}{state}"
@@ -106,7 +109,9 @@ def _sentence(verdict: ChangeVerdict) -> str:
 def _document(one: Added) -> dict[str, Any]:
     got = one.imported
     if got is None:
-        return {"path": str(one.path), "error": one.error}
+        return (
+            {"path": str(one.path), "error": one.error} if one.error else {"path": str(one.path), "campaign": one.campaign}
+        )
     return {
         "path": str(one.path),
         **asdict(got),
