@@ -1,9 +1,9 @@
 """Which component a changed set of indicators points to, and what this test cannot tell from it.
 
-Each component has a few ways to fail, each a row of the signatures: what a fault of typical size does to every indicator.
-A component explains a change as far as some of its rows, none of them with a sign that no fault has, add up to it within the
-scatter. How well it does so is its marginal likelihood, the sizes of its faults being unknown: a component with many ways to
-fail can explain much, and pays for it.
+Each component has a few ways to fail, each a row of the signatures: what such a fault does to every indicator. A component
+explains a change as far as some of its rows, none of them with a sign that no fault has, add up to it within the scatter.
+How well it does so is its marginal likelihood, the sizes of its faults being unknown: one that takes several ways to fail
+pays for each. Only directions count: how large a fault is usual, nobody knows.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ CANNOT_TELL = 0.1
 INEXACT = 0.1
 """Share by which a signature may be off: it is of first order, of the machine as it was when it was made."""
 
-SIZES = 3.0
-"""Standard deviation of the unknown size of a fault, in typical ones."""
+PARALLEL = 0.999
+"""Cosine from which two ways to fail of one component are one."""
 
 MOST_WAYS = 3
 """Ways to fail of one component that are looked at together."""
@@ -186,23 +186,33 @@ def _explanations(y: Array, rows: Array, signatures: Signatures) -> Iterator[_Ex
     """Each component that moves any indicator, by the best of the ways in which it may have failed."""
     own = 1 + (INEXACT * y) ** 2 + (INEXACT / 3) ** 2 * float(y @ y)
     for component in dict.fromkeys(signatures.components):
-        at = [k for k, name in enumerate(signatures.components) if name == component and bool(np.abs(rows[k]).max() > 1e-9)]
-        best = max(_ways(y, rows, own, at, signatures.one_sided), key=lambda one: one[0], default=None)
+        at = [k for k, name in enumerate(signatures.components) if name == component]
+        ways = _distinct([(rows[k] / np.linalg.norm(rows[k]), signatures.one_sided[k]) for k in at if rows[k].any()])
+        best = max(_combined(y, own, ways), key=lambda one: one[0], default=None)
         if best is not None:
-            yield _Explained(component, *best)
+            yield _Explained(component, round(best[0], 6), best[1])
 
 
-def _ways(y: Array, rows: Array, own: Array, at: Sequence[int], one_sided: Sequence[bool]) -> Iterator[tuple[float, Array]]:
-    """Log-likelihood of each set of ways to fail, and what it makes of the indicators."""
-    for size in range(1, min(len(at), MOST_WAYS) + 1):
-        number = sum(1 for _ in combinations(at, size))
-        for chosen in combinations(at, size):
-            M = rows[list(chosen)].T
-            spread = np.diag(own) + SIZES**2 * M @ M.T
+def _distinct(ways: Sequence[tuple[Array, bool]]) -> list[tuple[Array, bool]]:
+    """Ways to fail, of which none is another once more; one that goes both ways stands for one that does not."""
+    found: list[tuple[Array, bool]] = []
+    for direction, one_sided in sorted(ways, key=lambda way: way[1]):
+        known = ((float(direction @ other), sided) for other, sided in found)
+        if not any(cosine > PARALLEL or (cosine < -PARALLEL and not sided) for cosine, sided in known):
+            found.append((direction, one_sided))
+    return found
+
+
+def _combined(y: Array, own: Array, ways: Sequence[tuple[Array, bool]]) -> Iterator[tuple[float, Array]]:
+    """Log-likelihood of each set of ways to fail, their sizes being of the order of the change, and what it makes of it."""
+    size = float(y @ y)
+    for number in range(1, min(len(ways), MOST_WAYS) + 1):
+        for chosen in combinations(ways, number):
+            M = np.array([direction for direction, _ in chosen]).T
+            spread = np.diag(own) + size * M @ M.T
             weights = np.linalg.solve(spread, y)
-            sizes = SIZES**2 * M.T @ weights
-            if any(one_sided[k] and sizes[j] <= 0 for j, k in enumerate(chosen)):
+            amounts = size * M.T @ weights
+            if any(one_sided and amount <= 0 for (_, one_sided), amount in zip(chosen, amounts, strict=True)):
                 continue
             likelihood = -0.5 * (float(y @ weights) + float(np.linalg.slogdet(spread)[1]))
-            sided = sum(one_sided[k] for k in chosen) * np.log(2.0)
-            yield likelihood + sided - np.log(number) - np.log(min(len(at), MOST_WAYS)), M @ sizes
+            yield likelihood - (number - 1) * float(np.log(len(ways))), M @ amounts
