@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
+from threading import Barrier
 from typing import Any
 
 import numpy as np
@@ -15,9 +17,10 @@ from elastogeo.changes import ALARM, NO_BASELINE, OVERDUE, STEADY, SUSPECT
 from elastogeo.history.alarms.acts import acknowledge, close
 from elastogeo.history.alarms.assessing import assess, assess_waiting
 from elastogeo.history.alarms.open_ones import standing
+from elastogeo.history.alarms.rows import open_alarms
 from elastogeo.history.alarms.silences import silence_machine
 from elastogeo.history.alarms.states import fleet
-from elastogeo.history.store import Store, read, write
+from elastogeo.history.store import Store, open_store, read, write
 from elastogeo.history.store.schema import series_state, set_aside
 from tests.history.alarms.shop import DAY, START, add_log, make_series, make_test, messages, set_baseline, steps
 
@@ -414,3 +417,77 @@ def test_the_fleet_says_more_than_the_stated_reproducibility(store: Store) -> No
     alone, expected = (assess(store, key).indicators[0].deviation / 50_000 for key in (keys[0], keys[3]))
     assert alone > 0.008, "six degrees of freedom of the stated 1.5 % beside seven of its own"
     assert expected < 0.002
+
+
+# whatever happens
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_any_history_has_one_open_alarm_and_tells_nothing_twice(machine: Machine, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    store, loss = machine.store, 0.0
+    for _ in range(18):
+        before = len(messages(store))
+        act = rng.choice(["test", "old", "again", "reanalysis", "repeat", "wait", "fault", "acknowledge", "close", "aside"])
+        machine.clock.advance(days=int(rng.integers(0, 9)), hours=1)
+        numbers = open_numbers(store)
+        if act == "fault":
+            loss = float(rng.choice([0.0, 8.0, 20.0, 40.0]))
+        elif act == "test":
+            machine.test(loss=loss)
+        elif act == "repeat":
+            machine.repeat(loss=loss)
+        elif act == "old":
+            machine.test(loss=40.0, age=8 * DAY)
+        elif act == "again":
+            assess(store, machine.series, machine.tests[-1])
+        elif act == "reanalysis":
+            assess(store, machine.series)
+        elif act == "wait":
+            assess_waiting(store)
+        elif act == "acknowledge" and numbers:
+            acknowledge(store, numbers[0], "A. Miller", "seen")
+        elif act == "close" and numbers:
+            close(store, numbers[0], False, "A. Miller", "chips")
+        elif act == "aside":
+            with write(store) as connection:
+                values = {"test": machine.tests[-1], "aside": True, "at": machine.clock.time, "who": "A", "why": "chips"}
+                connection.execute(insert(set_aside).values(**values))
+            assess(store, machine.series)
+        if act in ("old", "again", "reanalysis", "fault", "acknowledge", "aside"):
+            assert len(messages(store)) == before, act
+        assert len(open_numbers(store)) <= 1
+    by_alarm = {number: [state for own, state in steps(store) if own == number] for number, _ in steps(store)}
+    assert all(states[0] == "open" and states.count("open") == 1 for states in by_alarm.values())
+    assert len(messages(store)) <= len(steps(store))
+
+
+def open_numbers(store: Store) -> list[int]:
+    with read(store) as connection:
+        return [kept.key for kept in open_alarms(connection)]
+
+
+def test_two_processes_that_assess_at_once_open_one_alarm_with_one_message(machine: Machine, url: str) -> None:
+    machine.test(loss=20.0)
+    machine.clock.advance(hours=1)
+    again = machine.made(loss=20.0, repeats=machine.tests[-1])
+    start = Barrier(2)
+
+    def process(_: int) -> str:
+        with open_store(url) as own:
+            start.wait()
+            return str(assess(own, machine.series, again).state)
+
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(process, range(2))) == [ALARM, ALARM]
+    assert [state for _, state in steps(machine.store)] == ["open"]
+    assert told(machine.store) == ["Alarm"]
+
+
+def test_a_crash_between_import_and_assessment_loses_no_alarm(machine: Machine) -> None:
+    machine.test(loss=20.0)
+    machine.clock.advance(hours=1)
+    machine.made(loss=20.0, repeats=machine.tests[-1])
+    machine.clock.advance(days=1)
+    assess(machine.store, machine.series, machine.tests[-1])
+    assert told(machine.store) == ["Alarm"], "the import is repeated, and the test comes for the first time"
