@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
@@ -21,7 +22,7 @@ from elastogeo.history.alarms.rows import open_alarms
 from elastogeo.history.alarms.silences import silence_machine
 from elastogeo.history.alarms.states import fleet
 from elastogeo.history.store import Store, open_store, read, write
-from elastogeo.history.store.schema import series_state, set_aside
+from elastogeo.history.store.schema import outbox, series_state, set_aside
 from tests.history.alarms.shop import DAY, START, add_log, make_series, make_test, messages, set_baseline, steps
 
 HOUR = timedelta(hours=1)
@@ -116,6 +117,13 @@ def test_a_repeat_that_confirms_opens_one_alarm_with_one_message(machine: Machin
     assert [state for _, state in steps(machine.store)] == ["open"]
     ((_, subject, _),) = messages(machine.store)
     assert subject == "Alarm: C50 no. 3, XY 200"
+    with read(machine.store) as connection:
+        content = connection.execute(select(outbox.c.content)).scalar_one()
+    assert content["text"].startswith("Simulated from numbers.\n\nC50 no. 3 is 2")
+    assert "softer in X than its baseline" in content["text"]
+    assert "elastogeo history acknowledge 1 --why" in content["text"]
+    assert content["document"]["change"]["state"] == ALARM
+    assert len(json.dumps(content)) < 20_000, "the chart does not go by mail"
     for _ in range(3):  # retries, another process, re-analysis
         assess(machine.store, machine.series, machine.tests[-1])
         assess(machine.store, machine.series)

@@ -101,7 +101,7 @@ def text_of(result: AlarmNews | AlarmList) -> str:
     """A result as the text of a letter: the answer, what goes with it, the tables line by line."""
     view = view_of(result)
     tables = (line for table in view.tables for line in _lines(table.title, table.headings, table.rows))
-    parts = (view.origin, *view.alert, view.sentence, *view.notes, *tables)
+    parts = (view.origin, *view.alert, view.sentence, *view.advice, *view.notes, *tables)
     return "\n\n".join(part for part in parts if part) + "\n"
 
 

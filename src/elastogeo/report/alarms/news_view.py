@@ -3,7 +3,7 @@
 step : `open`, `worse`, `released`, `closed as repaired` or `closed as false`
 alarm : {number, machine, series, instrument, state, opened, over, confirmed, who, why, at, holds, silent_until}; `over`
     is by indicator how many limits it was off at most; `holds` are machines whose alarms an instrument's alarm holds back
-change : the document of the verdict that caused it, `elastogeo.change/1`, or null
+change : the document of the verdict that caused it, `elastogeo.change/1` without its chart, or null
 simulated : from what the tests are simulated, or null
 """
 
@@ -33,7 +33,9 @@ def alarm_news_view(result: AlarmNews) -> View:
     found = {
         "step": result.step,
         "alarm": entry(row),
-        "change": None if verdict is None else dict(verdict.document),
+        "change": None
+        if verdict is None
+        else {name: verdict.document[name] for name in verdict.document if name != "chart"},
         "simulated": result.simulated or None,
     }
     return View(
@@ -47,7 +49,8 @@ def alarm_news_view(result: AlarmNews) -> View:
         picture=None,
         checks=(),
         document=document(SCHEMA, found),
-        notes=(*(() if verdict is None else verdict.notes), *_beside(result)),
+        advice=() if verdict is None else verdict.advice,
+        notes=_beside(result),
     )
 
 
