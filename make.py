@@ -50,6 +50,7 @@ TASKS = {
             ("programs", ["benchmarks/programs.py"]),
             ("maps", ["benchmarks/maps.py"]),
             ("paths", ["benchmarks/paths.py"]),
+            ("changes", ["benchmarks/changes.py"]),
         ],
     ),
     "studies": (

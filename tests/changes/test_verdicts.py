@@ -274,3 +274,43 @@ def test_the_replay_is_the_step_of_the_charts_one_test_after_the_other() -> None
         assert_allclose([one.running[i] for one in verdict.indicators], seen.running, rtol=1e-12)
         over = {name for name, side in zip(NAMES, seen.over, strict=True) if side}
         assert set(verdict.steps[i - 10].over) == over
+
+
+@pytest.mark.parametrize(("factor", "shift"), [(-1.0, 0.0), (1e3, 0.0), (1e-3, 5.0)])
+def test_unit_sign_and_zero_of_an_indicator_do_not_matter(factor: float, shift: float) -> None:
+    """Micrometres for millimetres, the other sense, another zero: the same states, dates and ratios."""
+    series = series_of(np.vstack([BASE, stepped(3, 5, -7.0, indicator=2)]), seed=5)
+    scaled = tuple(
+        replace(kind, reproducibility=abs(factor) * kind.reproducibility, relevance=abs(factor) * kind.relevance)
+        if not kind.relative
+        else kind
+        for kind in series.kinds
+    )
+    value = series.value.copy()
+    value[:, 2:] = factor * value[:, 2:] + shift
+    one = judge(series, baseline_of(series), now=21000.0)
+    other = judge(replace(series, value=value, kinds=scaled), baseline_of(series), now=21000.0)
+    assert one.state == other.state == ALARM
+    assert one.change_point == other.change_point
+    for a, b in zip(one.steps, other.steps, strict=True):
+        assert (a.test, a.state, a.over, a.first) == (b.test, b.state, b.over, b.first)
+        assert_allclose(a.ratio, b.ratio, rtol=1e-6)
+    assert_allclose(other["squareness XY"].change, factor * one["squareness XY"].change, rtol=1e-6)
+
+
+def test_what_is_no_number_is_not_judged() -> None:
+    series = after_baseline(0.0, 0.0)
+    value = series.value.copy()
+    value[11, 0], value[11, 1] = np.inf, -np.inf
+    verdict = judge(replace(series, value=value), baseline_of(series), now=21000.0)
+    assert verdict.state == STEADY
+    assert np.isnan(verdict["stiffness X"].single[11])
+    value[11] = np.inf
+    none = judge(replace(series, value=value), baseline_of(series), now=21000.0)
+    assert none.not_judged == {"test 11": "nothing determined"}
+
+
+def test_a_clock_that_went_back_makes_no_alarm() -> None:
+    """A suspect test dated after now: its week has not begun."""
+    series = after_baseline(0.0, -8.0)
+    assert judge(series, baseline_of(series), now=float(series.date[-1]) - 100).state == SUSPECT
