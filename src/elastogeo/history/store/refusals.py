@@ -34,6 +34,10 @@ def in_words(url: str, writes: bool) -> Iterator[None]:
         yield
     except IntegrityError:
         raise
+    except UnicodeEncodeError as error:
+        raise StoreError(
+            f"{str(error.object)[:80]!r} holds bytes that are no text in UTF-8; rename it, then repeat"
+        ) from error
     except DBAPIError as error:
         said = " ".join(str(error.orig).split())
         if not writes and ("readonly" in said or "read-only" in said):
