@@ -27,6 +27,8 @@ BACKLASH_SCATTER = 0.25e-3
 STRAIGHTNESS_SCATTER = 0.2e-3
 SEASON = 4.0
 """Amplitude [K] of the hall's temperature over the year."""
+WEATHER = 1.0
+"""Standard deviation [K] of one day's temperature about the season's."""
 SQUARENESS_PER_KELVIN = 0.5e-6
 SCALE_PER_KELVIN = 0.7e-6
 """By which the scale of X grows more than that of Y."""
@@ -62,6 +64,8 @@ class Story:
         The model is a machine that ships.
     bar : str
         Serial number of the loaded ball bar that tests it.
+    squareness : str
+        The parameter that is the squareness of its X and Y.
     faults : tuple of Fault
     seated_badly : float
         Share of its tests in which a ball is not seated.
@@ -74,6 +78,7 @@ class Story:
     serial: str
     place: str
     bar: str
+    squareness: str
     faults: tuple[Fault, ...] = ()
     seated_badly: float = 0.0
     until: float = field(default=float("inf"))
@@ -84,14 +89,17 @@ RECALIBRATED_AFTER = 2.2 * YEAR
 NEW_FORCE = 0.05
 """Relative: by which the force of the bar is other than stated after it was recalibrated."""
 
+HERMLE, HURON = "E_C(0Y)X", "E_C(0)X"
+"""Squareness of X and Y where both move the tool, and where Y moves the workpiece."""
+
 FLEET = (
-    Story("Hermle C50 no. 1", "hermle_c50", "H-5011", "hall 1", "B-101", (Fault("guideway", 1.3 * YEAR),)),
-    Story("Hermle C50 no. 2", "hermle_c50", "H-5012", "hall 1", "B-101", (Fault("nut", 1.6 * YEAR),)),
-    Story("Hermle C50 no. 3", "hermle_c50", "H-5013", "hall 1", "B-101", (Fault("collision", 2.0 * YEAR),)),
-    Story("Hermle C50 no. 4", "hermle_c50", "H-5014", "hall 1", "B-101"),
-    Story("Huron KX8 no. 1", "huron_kx8", "K-0801", "hall 2", RECALIBRATED),
-    Story("Huron KX8 no. 2", "huron_kx8", "K-0802", "hall 2", RECALIBRATED, seated_badly=SEATED_BADLY),
-    Story("Huron KX8 no. 3", "huron_kx8", "K-0803", "hall 2", RECALIBRATED, until=2.85 * YEAR),
+    Story("Huron KX8 no. 1", "huron_kx8", "K-0801", "hall 2", RECALIBRATED, HURON),
+    Story("Huron KX8 no. 2", "huron_kx8", "K-0802", "hall 2", RECALIBRATED, HURON, seated_badly=SEATED_BADLY),
+    Story("Huron KX8 no. 3", "huron_kx8", "K-0803", "hall 2", RECALIBRATED, HURON, until=2.85 * YEAR),
+    Story("Hermle C50 no. 1", "hermle_c50", "H-5011", "hall 1", "B-101", HERMLE),
+    Story("Hermle C50 no. 2", "hermle_c50", "H-5012", "hall 1", "B-101", HERMLE, (Fault("collision", 2.0 * YEAR),)),
+    Story("Hermle C50 no. 3", "hermle_c50", "H-5013", "hall 1", "B-101", HERMLE, (Fault("nut", 1.6 * YEAR),)),
+    Story("Hermle C50 no. 4", "hermle_c50", "H-5014", "hall 1", "B-101", HERMLE, (Fault("guideway", 1.3 * YEAR),)),
 )
 
 
@@ -110,27 +118,35 @@ def struck(story: Story, day: float) -> float:
     return sum(30e-6 for fault in story.faults if fault.kind == "collision" and day >= fault.after)
 
 
-def temperature(day: float) -> float:
-    """Of the hall [degC]: warmest at the end of July."""
-    return 21.0 + SEASON * sin(2 * pi * (day - 110.0) / YEAR)
+def temperature(day: float, random: np.random.Generator) -> float:
+    """Of the machine [degC] on one day: warmest at the end of July."""
+    return 21.0 + SEASON * sin(2 * pi * (day - 110.0) / YEAR) + WEATHER * float(random.normal())
 
 
-def truth(story: Story, day: float, random: np.random.Generator) -> Mapping[str, float]:
+def truth(story: Story, day: float, warm: float, seated: bool, random: np.random.Generator) -> Mapping[str, float]:
     """True parameters of a machine on a day, in their own units; what scatters between tests is drawn.
 
-    A worn guideway of Y gives way across itself (`C_XXY`) and yaws (`C_CXY`), and Y runs less straight; a worn nut of X gives
-    clearance (`B_XX`) and a little compliance along X.
+    Parameters
+    ----------
+    story : Story
+    day : float [d]
+        Since the first test of the fleet.
+    warm : float [degC]
+        Temperature of the machine.
+    seated : bool
+        Whether the ball is seated.
+    random : Generator
+
+    A worn guideway of Y gives way across itself (`C_XXY`) and yaws (`C_CXY`), and Y runs less straight; a worn nut of X
+    gives clearance (`B_XX`) and a little compliance along X.
     """
     own = np.random.default_rng([*story.serial.encode()])
     across, along, square, scale_x, scale_y, backlash_x, backlash_y = own.normal(1.0, 0.1, 7)
-    warm = temperature(day) - 21.0
+    warm -= 21.0
     gauge = 1 + FORCE_SCATTER * random.normal()
     if story.bar == RECALIBRATED and day >= RECALIBRATED_AFTER:
         gauge *= 1 + NEW_FORCE
-    if random.random() < story.seated_badly:
-        seat = GIVES_WAY
-    else:
-        seat = 0.0
+    seat = 0.0 if seated else GIVES_WAY
     soft_x, soft_y = gauge * (1 + STIFFNESS_SCATTER * random.normal(size=2))
     loss = softened(story, day)
     compliance = 4.0e-5 * across
@@ -142,7 +158,10 @@ def truth(story: Story, day: float, random: np.random.Generator) -> Mapping[str,
         "C_YYY": soft_y * 3.2e-5 * along,
         "C_XYX": 8e-7 * gauge,
         "C_CCY": 5e-11 * gauge,
-        "E_C(0Y)X": 8e-6 * square + struck(story, day) + SQUARENESS_PER_KELVIN * warm + SQUARENESS_SCATTER * random.normal(),
+        story.squareness: 8e-6 * square
+        + struck(story, day)
+        + SQUARENESS_PER_KELVIN * warm
+        + SQUARENESS_SCATTER * random.normal(),
         "E_XX1": -4e-5 * scale_x + SCALE_PER_KELVIN * warm + SCALE_SCATTER * random.normal(),
         "E_YY1": -3e-5 * scale_y + SCALE_SCATTER * random.normal(),
         "E_YX2": (2e-3 + STRAIGHTNESS_SCATTER * random.normal()) / 150**2,

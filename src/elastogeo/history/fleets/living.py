@@ -1,0 +1,112 @@
+"""Three years of the demo fleet, test by test: imported as they are made, judged, repeated where one is suspect."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import numpy as np
+
+from elastogeo.changes import SUSPECT
+from elastogeo.history.fleets.folders import write_test
+from elastogeo.history.fleets.stories import (
+    EVERY,
+    FLEET,
+    RECALIBRATED,
+    RECALIBRATED_AFTER,
+    YEAR,
+    Story,
+    temperature,
+    truth,
+)
+from elastogeo.history.history import History
+
+YEARS = 3.0
+BASELINE = 10
+"""Tests after which a person sets the baseline."""
+LAST = timedelta(days=10)
+"""Before the day it is lived to, at least: all its tests are old, and nobody is told of what they show."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lived:
+    """A test of the fleet that came in.
+
+    Attributes
+    ----------
+    machine : str
+    at : datetime
+    state : str
+        Of its series after it.
+    done, of : int
+        Tests so far, and of the whole fleet without repeats.
+    """
+
+    machine: str
+    at: datetime
+    state: str
+    done: int
+    of: int
+
+
+def live(history: History, until: datetime, stories: tuple[Story, ...] = FLEET, years: float = YEARS) -> Iterator[Lived]:
+    """Live through the years of a fleet, in a history that knows none of its machines.
+
+    Parameters
+    ----------
+    history : History
+    until : datetime
+        The day on which it is looked at.
+    stories : tuple of Story
+    years : float
+
+    Yields
+    ------
+    Lived
+        After each test.
+    """
+    begin = (until.astimezone(UTC) - LAST - timedelta(days=years * YEAR)).replace(hour=6, minute=0, second=0, microsecond=0)
+    for story in stories:
+        history.add_machine(story.name, kind=story.model, serial=story.serial, place=story.place)
+    for bar in sorted({story.bar for story in stories}):
+        history.add_instrument(bar, kind="loaded-ball-bar", calibrated=f"{begin - timedelta(days=30):%Y-%m-%d}")
+    times = [(k * EVERY, number) for k in range(int(years * YEAR / EVERY) + 1) for number in range(len(stories))]
+    times = [(day, number) for day, number in times if day <= stories[number].until]
+    recalibrated = False
+    with tempfile.TemporaryDirectory() as folder:
+        for done, (day, number) in enumerate(times):
+            if day >= RECALIBRATED_AFTER and not recalibrated:
+                on = begin + timedelta(days=RECALIBRATED_AFTER)
+                history.add_instrument(RECALIBRATED, calibrated=f"{on:%Y-%m-%d}", certificate="simulated")
+                recalibrated = True
+            at = begin + timedelta(days=day, hours=number)
+            yield Lived(
+                stories[number].name, at, _tested(history, Path(folder), stories[number], day, at), done + 1, len(times)
+            )
+
+
+def _tested(history: History, folder: Path, story: Story, day: float, at: datetime) -> str:
+    """One test of a machine, again on the same day if it is suspect, and what is noted of it; the state then."""
+    number = int(day / EVERY)
+    seed = [number, *story.serial.encode()]
+    chance, warm = np.random.default_rng([1, *seed]), temperature(day, np.random.default_rng([2, *seed]))
+    state = ""
+    for attempt in range(2):
+        values = truth(story, day, warm, chance.random() >= story.seated_badly, np.random.default_rng([3, *seed]))
+        name = folder / f"{story.serial}-{number:02d}-{attempt + 1}"
+        write_test(name, story, at + timedelta(minutes=30 * attempt), warm, values, 1000 * number + attempt)
+        added = history.add(name)
+        assert added.verdict is not None
+        state = added.verdict.state
+        if state != SUSPECT:
+            break
+    struck = [fault.after for fault in story.faults if fault.kind == "collision"]
+    if any(day - EVERY < after <= day for after in struck):
+        history.add_event("crash", "the spindle ran into a clamp (simulated)", machine=story.name, at=f"{at:%Y-%m-%d}")
+    if number + 1 == BASELINE:
+        assert added.imported is not None
+        history.set_baseline(added.imported.series, "the first ten tests after commissioning", first=BASELINE)
+    return state
