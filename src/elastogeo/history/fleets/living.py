@@ -101,8 +101,8 @@ def _tested(history: History, folder: Path, story: Story, day: float, at: dateti
         added = history.add(name)
         assert added.verdict is not None
         state = added.verdict.state
-        if state != SUSPECT:
-            break
+        if not added.verdict.steps or added.verdict.steps[-1].state != SUSPECT:
+            break  # of an old test that nobody repeated the alarm is there at once; that day it was suspect
     struck = [fault.after for fault in story.faults if fault.kind == "collision"]
     if any(day - EVERY < after <= day for after in struck):
         history.add_event("crash", "the spindle ran into a clamp (simulated)", machine=story.name, at=f"{at:%Y-%m-%d}")

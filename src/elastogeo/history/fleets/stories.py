@@ -104,8 +104,8 @@ FLEET = (
 
 
 def softened(story: Story, day: float) -> float:
-    """Relative loss of stiffness in x by a guideway that wears: a fifth in a year, evenly."""
-    return sum(0.2 * max(0.0, day - fault.after) / YEAR for fault in story.faults if fault.kind == "guideway")
+    """Relative loss of stiffness in x by a guideway that wears: an eighth in a year, evenly."""
+    return sum(0.125 * max(0.0, day - fault.after) / YEAR for fault in story.faults if fault.kind == "guideway")
 
 
 def worn(story: Story, day: float) -> float:
