@@ -108,4 +108,5 @@ def _tested(history: History, folder: Path, story: Story, day: float, at: dateti
         history.add_event("crash", "the spindle ran into a clamp (simulated)", machine=story.name, at=f"{at:%Y-%m-%d}")
     if number + 1 == BASELINE:
         history.set_baseline(story.name, why="the first ten tests after commissioning", first=BASELINE)
+        history.set_interval(story.name, EVERY, why="tests every four weeks")
     return state
