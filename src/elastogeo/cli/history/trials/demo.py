@@ -29,7 +29,7 @@ def demo(
       elastogeo history show "Hermle C50 no. 1" --store demo-fleet.db
     """
     from elastogeo.cli import screen
-    from elastogeo.history.fleets.living import live
+    from elastogeo.history.fleets import live
 
     if "://" not in place and Path(place).exists():
         raise eg.InputError(f"{place} is there already; name another file, or remove it and {place}.files")
