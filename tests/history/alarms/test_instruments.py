@@ -15,6 +15,7 @@ from elastogeo.history.alarms.open_ones import standing
 from elastogeo.history.alarms.states import fleet
 from elastogeo.history.store import Store, read
 from elastogeo.history.store.schema import series_state
+from elastogeo.report import view_of
 from tests.history.alarms.shop import (
     DAY,
     START,
@@ -96,6 +97,23 @@ def test_three_machines_that_move_alike_are_one_alarm_on_the_instrument(shop: Sh
     assert found[0].holds == ("C50 no. 0", "C50 no. 1", "C50 no. 2")
     assert {row.machine: row.held_by for row in rows if row.state == ALARM} == dict.fromkeys(found[0].holds, "LB-1")
     assert verdicts[2].alarm.held_by == "LB-1"
+
+
+def test_the_fleet_says_the_instrument_before_the_machines(shop: Shop) -> None:
+    off(shop)
+    with read(shop.store) as connection:
+        found = fleet(connection, shop.clock.time)
+    assert [(move.instrument, move.machines) for move in found.instruments] == [
+        ("LB-1", ("C50 no. 0", "C50 no. 1", "C50 no. 2"))
+    ]
+    view = view_of(found)
+    assert view.alert[0].startswith("3 machines moved alike in stiffness X with instrument LB-1 (C50 no. 0, C50 no. 1 and")
+    assert "nan" not in str(view.document["instruments"]).lower()
+    with read(shop.store) as connection:
+        (number,) = [row.number for row in standing(connection, shop.clock.time).alarms if row.instrument]
+    close(shop.store, number, repaired=True, who="A. Miller", why="calibrated anew")
+    with read(shop.store) as connection:
+        assert fleet(connection, shop.clock.time).instruments == ()
 
 
 def test_a_fourth_machine_joins_without_a_message(shop: Shop) -> None:

@@ -42,7 +42,7 @@ def test_the_fleet_counts_every_state_and_lists_the_worst_first():
     assert {value.name: value.value for value in view.values} == {
         "■ Alarm": "1", "◆ Suspect": "1", "▲ Watch": "1", "● Steady": "1", "◷ Overdue": "1", "– No baseline": "1",
     }  # fmt: skip
-    assert [line[2] for line in view.tables[0].rows] == [
+    assert [line[1] for line in view.tables[0].rows] == [
         "■ alarm", "◆ suspect", "◷ overdue", "▲ watch", "– no baseline", "● steady",
     ]  # fmt: skip
     assert view.sentence == "Hermle C50 no. 3 is 11 % softer in X; no other machine is in alarm."

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from datetime import datetime
 from math import nan
@@ -16,14 +16,16 @@ from elastogeo.changes import (
     NO_BASELINE,
     ChangeVerdict,
     FleetState,
+    InstrumentMove,
     MachineRow,
     Rule,
     fleet_state,
     machine_row,
 )
 from elastogeo.history.alarms.priors import KeptPrior
+from elastogeo.history.alarms.rows import alarms
 from elastogeo.history.series_of import days, instant
-from elastogeo.history.store.schema import machine, series, series_state
+from elastogeo.history.store.schema import alarm, instrument, machine, series, series_state
 
 SEEN = 24
 """Tests of a series, the last that were assessed, which are no news when they come again."""
@@ -107,8 +109,24 @@ def fleet(connection: Connection, at: datetime) -> FleetState:
         .outerjoin(series_state, series_state.c.series == series.c.id)
         .order_by(machine.c.name, series.c.id)
     )
-    found = (replace(_machine_row(row.name, row.place, row.of, row.verdict), model=row.kind, key=row.id) for row in rows)
-    return fleet_state(found, days(at))
+    found = [replace(_machine_row(row.name, row.place, row.of, row.verdict), model=row.kind, key=row.id) for row in rows]
+    return fleet_state(found, days(at), _moves(connection, found))
+
+
+def _moves(connection: Connection, rows: Iterable[MachineRow]) -> tuple[InstrumentMove, ...]:
+    """The instruments whose alarms are open: the machines whose alarms they hold back, and what moved when they opened."""
+    held: dict[str, list[str]] = {}
+    for row in rows:
+        held.setdefault(row.held_by, []).append(row.machine)
+    serials = dict(connection.execute(select(instrument.c.id, instrument.c.serial)).all())
+    found = []
+    for kept in alarms(connection, alarm.c.instrument.is_not(None)):
+        if kept.is_open and kept.instrument is not None:
+            serial, facts = serials[kept.instrument], kept.steps[0].facts
+            names, shifts = tuple(facts["indicators"]), tuple(facts["shifts"])
+            machines = tuple(dict.fromkeys(held.get(serial) or facts["machines"]))
+            found.append(InstrumentMove(serial, nan, machines, (), names, shifts, ((nan, nan),) * len(names), (), nan))
+    return tuple(found)
 
 
 def _machine_row(name: str, place: str, of: str | None, kept: Mapping[str, Any] | None) -> MachineRow:

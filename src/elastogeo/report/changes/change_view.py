@@ -102,7 +102,9 @@ def _caption(verdict: ChangeVerdict, one: IndicatorState) -> str:
 def _values(verdict: ChangeVerdict, one: IndicatorState) -> Iterator[KeyValue]:
     shown = shown_unit(one.kind.unit)
     if isfinite(one.now):
-        yield KeyValue(title_of(one.name), _now(one), shown.name, "last test, with the scatter between tests")
+        now = _now(one)
+        meaning = "last test, with the scatter between tests" if "±" in now else "last test"
+        yield KeyValue(title_of(one.name), now, shown.name, meaning)
     if isfinite(one.mean):
         yield KeyValue("Baseline", value_said(one, one.mean), shown.name, _of_tests(verdict))
     if isfinite(one.change) and verdict.state != NO_BASELINE and verdict.steps:

@@ -33,7 +33,8 @@ def date_ticks(first: float, last: float) -> dict[float, str]:
 def _by_days(first: float, last: float, step: int) -> dict[float, str]:
     days = [float(day) for day in range(int(-(-first // 1)), int(last // 1) + 1, step)]
     dates = {day: at for day in days if (at := moment(day)) is not None}
-    return {day: f"{at.day} {at:%b}" + (f" {at:%Y}" if day == days[0] else "") for day, at in dates.items()}
+    new_year = {day for day, at in dates.items() if day == days[0] or at.timetuple().tm_yday <= step}
+    return {day: f"{at.day} {at:%b}{f' {at:%Y}' if day in new_year else ''}" for day, at in dates.items()}
 
 
 def _by_months(first: float, last: float, step: int) -> dict[float, str]:

@@ -86,20 +86,20 @@ def fleet_table(fleet: FleetState) -> Table:
     rows = tuple(
         (
             row.machine,
-            row.place,
             marked(row.state),
-            short_date(row.since),
             row_said(row),
+            short_date(row.since),
             strip_said(row),
             short_date(row.last_test),
             short_date(row.due),
+            row.place,
         )
         for row in fleet.machines[:MOST_ROWS]
     )
     left = len(fleet.machines) - len(rows)
     marks = ", ".join(f"{MARKS[state]} {state}" for state in (ALARM, SUSPECT, WATCH, STEADY, NO_BASELINE))
     return Table(
-        ("machine", "place", "state", "since", "", "indicators", "last test", "next due"),
+        ("machine", "state", "", "since", "indicators", "last test", "next due", "place"),
         rows,
         words=(0, 1, 2, 3, 4, 5, 6, 7),
         title="The worst first",
