@@ -15,3 +15,5 @@ def show_copied(done: str, copied: Any, as_json: bool) -> None:
         return
     screen.say(f"{done}: {copied.place}")
     screen.say(f"{sum(copied.rows.values())} rows, {copied.files} raw files ({copied.size} bytes); each was checked")
+    if copied.wrong:
+        screen.say(f"The history was not as it was written ({', '.join(copied.wrong)}); see: elastogeo history verify")

@@ -22,6 +22,7 @@ from elastogeo.changes import (
     Recomputed,
     RuleTest,
     Tolerance,
+    Verified,
     machine_state,
 )
 from elastogeo.changes.alarms import AlarmList, Delivery
@@ -57,9 +58,11 @@ from elastogeo.history.requirements.intervals import set_interval
 from elastogeo.history.requirements.tolerances import kind_of, set_tolerance
 from elastogeo.history.series_of import days
 from elastogeo.history.store import Store, audit, now, open_store, read
+from elastogeo.history.upkeep.backups import back_up
 from elastogeo.history.upkeep.exports import export
 from elastogeo.history.upkeep.manifests import Copied
 from elastogeo.history.upkeep.raw_copies import Step, silent
+from elastogeo.history.upkeep.verification import verify
 from elastogeo.planning import Plan
 
 
@@ -170,6 +173,14 @@ class History:
         from elastogeo.history.store.trail import audit_trail
 
         return audit_trail(self.store, last, subject, who)
+
+    def back_up(self, folder: str | Path, step: Step = silent) -> Copied:
+        """Copy everything into a new folder, while others work, and check the copy."""
+        return back_up(self.store, folder, step)
+
+    def verify(self, step: Step = silent) -> Verified:
+        """Check that everything kept is as it was written."""
+        return verify(self.store, step)
 
     def export(self, folder: str | Path, step: Step = silent) -> Copied:
         """Write everything as files into a new folder."""

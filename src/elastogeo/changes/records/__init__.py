@@ -4,10 +4,43 @@ from elastogeo.changes.records.audit_trail import TRAIL_WHOLE, AuditFault, Audit
 from elastogeo.changes.records.campaigns import KeptCampaign
 from elastogeo.changes.records.plans import KeptPlan, KeptPlans
 from elastogeo.changes.records.recomputed import SAME_AGAIN, Differing, Recomputed, RecomputedTest, recomputed_same
+from elastogeo.changes.records.verified import (
+    CHANGED,
+    DANGLING,
+    DATABASE_SOUND,
+    DOCUMENTS_WHOLE,
+    MISSING,
+    NO_STRAY_FILES,
+    RAW_FILES_WHOLE,
+    RECORDS_AGREE,
+    REFERENCES_WHOLE,
+    RESIZED,
+    ROWS_PROTECTED,
+    STRAY,
+    UNPROTECTED,
+    UNREADABLE,
+    StoreFault,
+    Verified,
+    as_written,
+)
 
 __all__ = [
+    "CHANGED",
+    "DANGLING",
+    "DATABASE_SOUND",
+    "DOCUMENTS_WHOLE",
+    "MISSING",
+    "NO_STRAY_FILES",
+    "RAW_FILES_WHOLE",
+    "RECORDS_AGREE",
+    "REFERENCES_WHOLE",
+    "RESIZED",
+    "ROWS_PROTECTED",
     "SAME_AGAIN",
+    "STRAY",
     "TRAIL_WHOLE",
+    "UNPROTECTED",
+    "UNREADABLE",
     "AuditFault",
     "AuditRow",
     "AuditTrail",
@@ -17,6 +50,9 @@ __all__ = [
     "KeptPlans",
     "Recomputed",
     "RecomputedTest",
+    "StoreFault",
+    "Verified",
+    "as_written",
     "recomputed_same",
     "trail_whole",
 ]

@@ -39,6 +39,8 @@ class Copied:
         By table.
     files, size : int
         The raw files, and their size [bytes].
+    wrong : tuple of str
+        Checks that the history did not pass when it was copied: the copy has these faults too.
     """
 
     place: str
@@ -46,6 +48,7 @@ class Copied:
     rows: dict[str, int]
     files: int
     size: int
+    wrong: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,9 +73,10 @@ class Manifest:
     files: int
     size: int
 
-    def copied(self, place: str) -> Copied:
+    def copied(self, place: str, wrong: tuple[str, ...] = ()) -> Copied:
         """As a result."""
-        return Copied(place, self.content, {name: of["rows"] for name, of in self.tables.items()}, self.files, self.size)
+        rows = {name: of["rows"] for name, of in self.tables.items()}
+        return Copied(place, self.content, rows, self.files, self.size, wrong)
 
 
 def write_manifest(folder: Path, manifest: Manifest, url: str) -> None:
