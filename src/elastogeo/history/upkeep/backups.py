@@ -77,9 +77,10 @@ def _copy_of(store: Store, step: Step) -> Iterator[Path]:
         copy = Path(folder) / DATABASE
         library: Any = store.engine.dialect.loaded_dbapi
         with closing(store.engine.raw_connection()) as pooled:
+            source: Any = pooled.driver_connection
             try:
                 with closing(library.connect(str(copy))) as target:
-                    pooled.driver_connection.backup(target, pages=-1)
+                    source.backup(target, pages=-1)
             except library.Error as error:
                 raise StoreError(f"{store.url}: could not be copied to {folder}: {error}; name another TMPDIR") from error
         yield copy
