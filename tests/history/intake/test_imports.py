@@ -249,6 +249,7 @@ def suspect(store, key: int) -> None:
         connection.execute(insert(series_state).values(row))
 
 
+@pytest.mark.parametrize("kind", ["truncate"])
 @pytest.mark.parametrize(
     ("date", "is_repeat"),
     [
@@ -268,6 +269,7 @@ def test_the_next_test_of_a_suspect_series_is_its_repeat(date, is_repeat, store,
     assert any("counts as its repeat" in note for note in got.notes) is is_repeat
 
 
+@pytest.mark.parametrize("kind", ["truncate"])
 def test_the_next_of_weekly_tests_is_no_repeat(store, tmp_path):
     for k, day in enumerate(("2026-02-01", "2026-02-08", "2026-02-15")):
         last = import_test(store, write_test(tmp_path / day, date=day, seed=k), machine="Mill 3", who=WHO)
@@ -276,6 +278,7 @@ def test_the_next_of_weekly_tests_is_no_repeat(store, tmp_path):
     assert got.repeats is None
 
 
+@pytest.mark.parametrize("kind", ["truncate"])
 def test_a_person_says_what_is_a_repeat(store, tmp_path):
     first = import_test(store, write_test(tmp_path / "a", date="2026-02-01"), machine="Mill 3", who=WHO)
     suspect(store, first.series)
@@ -293,6 +296,7 @@ def test_a_person_says_what_is_a_repeat(store, tmp_path):
         )
 
 
+@pytest.mark.parametrize("kind", ["truncate"])
 def test_temperature_is_that_of_the_test_else_of_its_set_up(store, tmp_path):
     warm = "machine_at = { temperature_degC = 22.5, expansion_um_per_m = 11.5 }"
     folders = [

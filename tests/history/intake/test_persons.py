@@ -77,6 +77,7 @@ def test_a_test_that_is_set_aside_says_so_when_it_comes_again(store, tmp_path):
     assert (again.new, again.notes) == (False, ("it was set aside by A. Nobody",))
 
 
+@pytest.mark.parametrize("kind", ["truncate"])
 @pytest.mark.parametrize("kind_of_event", KINDS)
 def test_an_event_stands_on_a_machine(kind_of_event, store):
     got = record_event(store, kind_of_event, "carriage 2 replaced", who=WHO, machine="Mill 3", at="2026-02-03")
