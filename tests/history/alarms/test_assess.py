@@ -119,7 +119,7 @@ def test_a_repeat_that_confirms_opens_one_alarm_with_one_message(machine: Machin
     assert subject == "Alarm: C50 no. 3, XY 200"
     with read(machine.store) as connection:
         content = connection.execute(select(outbox.c.content)).scalar_one()
-    assert content["text"].startswith("Simulated from numbers.\n\nC50 no. 3 is 2")
+    assert content["text"].startswith("Simulated: numbers\n\nC50 no. 3 is ")
     assert "softer in X than its baseline" in content["text"]
     assert "elastogeo history acknowledge 1 --why" in content["text"]
     assert content["document"]["change"]["state"] == ALARM

@@ -222,7 +222,7 @@ def test_what_was_said_last_of_a_silence_counts(store: Store, box: Box, standing
 
 def test_a_silence_needs_a_machine_a_reason_and_a_zone(store: Store) -> None:
     make_series(store)
-    with pytest.raises(InputError, match=r"no machine 'C51'; `elastogeo history list`"):
+    with pytest.raises(InputError, match=r"no machine 'C51'; there are: C50 no. 3"):
         silence_machine(store, "C51", START, "A. Miller", "why not")
     with pytest.raises(InputError, match="needs a reason"):
         silence_machine(store, "C50 no. 3", START, "A. Miller", " ")

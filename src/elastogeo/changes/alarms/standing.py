@@ -35,6 +35,8 @@ class AlarmRow(Part):
         Of the alarm of an instrument, the machines whose alarms it holds back.
     silent_until : float or None [d]
         Until when nothing is sent of its machine.
+    simulated : str
+        From what the tests of its series are simulated; empty if any was measured.
     """
 
     number: int
@@ -50,6 +52,7 @@ class AlarmRow(Part):
     at: float
     holds: tuple[str, ...] = ()
     silent_until: float | None = None
+    simulated: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

@@ -69,6 +69,7 @@ def rows_of(connection: Connection, kept: Iterable[Kept], at: datetime) -> tuple
                 at=days(one.steps[-1].at or one.opened),
                 holds=_holds(connection, one),
                 silent_until=None if until is None else days(until),
+                simulated=simulated(connection, one.series),
             )
         )
     return tuple(rows)

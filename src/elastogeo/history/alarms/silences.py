@@ -7,8 +7,9 @@ from datetime import datetime
 from sqlalchemy import Connection, func, insert, select
 
 from elastogeo.errors import InputError
+from elastogeo.history.names import machine_key
 from elastogeo.history.store import Store, audit, now, write
-from elastogeo.history.store.schema import machine, silence
+from elastogeo.history.store.schema import silence
 
 
 def silent_until(connection: Connection, at: datetime) -> dict[int, datetime]:
@@ -31,8 +32,6 @@ def silence_machine(store: Store, name: str, until: datetime, who: str, why: str
     if until.tzinfo is None:
         raise InputError(f"{until} has no time zone; a silence ends at a point in time")
     with write(store) as connection:
-        key = connection.scalar(select(machine.c.id).where(machine.c.name == name))
-        if key is None:
-            raise InputError(f"there is no machine {name!r}; `elastogeo history list` shows those that there are")
+        key = machine_key(connection, name)
         connection.execute(insert(silence).values(machine=key, until=until, at=now(), who=who, why=why))
         audit.record(connection, who, "silence", f"machine {name}", None, until.isoformat(), why)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from elastogeo.changes.alarms import ACKNOWLEDGED, CLOSED, HELD, OPEN, AlarmList, AlarmRow
-from elastogeo.report.alarms.words import counted, date_said, entry, iso, of_what, over_said
+from elastogeo.report.alarms.words import counted, date_said, entry, iso, of_what, over_said, simulated_said
 from elastogeo.report.document import document
 from elastogeo.report.numbers import significant
 from elastogeo.report.view import Section, Table, View, views
@@ -42,7 +42,7 @@ def alarm_list_view(result: AlarmList) -> View:
         kind="Alarms",
         title=date_said(result.now),
         subtitle="",
-        origin=f"Simulated from {result.simulated}." if result.simulated else "",
+        origin=simulated_said(result.simulated),
         head=(),
         sentence=_answer(result),
         values=(),
@@ -106,4 +106,5 @@ def _alarm(row: AlarmRow) -> tuple[str, ...]:
     what = over_said(row.over) if not row.holds else f"holds back {', '.join(row.holds)}"
     person = f"{row.who}: {row.why}" if row.who else ""
     confirmed = "" if row.instrument else ("by a repeat" if row.confirmed else "no")
-    return str(row.number), of_what(row), f"{row.state}{silent}", date_said(row.opened), what, confirmed, person
+    of = f"{of_what(row)} (simulated)" if row.simulated else of_what(row)
+    return str(row.number), of, f"{row.state}{silent}", date_said(row.opened), what, confirmed, person

@@ -1,8 +1,8 @@
 """The view of what a person is told of an alarm, and `elastogeo.alarm/1`, its document.
 
 step : `open`, `worse`, `released`, `closed as repaired` or `closed as false`
-alarm : {number, machine, series, instrument, state, opened, over, confirmed, who, why, at, holds, silent_until}; `over`
-    is by indicator how many limits it was off at most; `holds` are machines whose alarms an instrument's alarm holds back
+alarm : {number, machine, series, instrument, state, opened, over, confirmed, who, why, at, holds, silent_until,
+    simulated}; `over` is by indicator how many limits it was off at most; `holds` are machines whose alarms an instrument's alarm holds back
 change : the document of the verdict that caused it, `elastogeo.change/1` without its chart, or null
 simulated : from what the tests are simulated, or null
 """
@@ -10,7 +10,7 @@ simulated : from what the tests are simulated, or null
 from __future__ import annotations
 
 from elastogeo.changes.alarms import FALSE, OPEN, RELEASED, REPAIRED, WORSE, AlarmNews
-from elastogeo.report.alarms.words import date_said, entry, of_what, over_said
+from elastogeo.report.alarms.words import date_said, entry, of_what, over_said, simulated_said
 from elastogeo.report.document import document
 from elastogeo.report.text import listed
 from elastogeo.report.view import View, view_of, views
@@ -42,7 +42,7 @@ def alarm_news_view(result: AlarmNews) -> View:
         kind=_KINDS[result.step],
         title=of_what(row),
         subtitle="",
-        origin=f"Simulated from {result.simulated}." if result.simulated else "",
+        origin=simulated_said(result.simulated),
         head=(("Alarm", str(row.number)), ("Opened", date_said(row.opened))),
         sentence=_answer(result) if verdict is None else verdict.sentence,
         values=(),

@@ -33,6 +33,12 @@ def of_what(row: AlarmRow) -> str:
     return f"instrument {row.instrument}" if row.instrument else f"{row.machine}, {row.series}"
 
 
+def simulated_said(simulated: str) -> str:
+    """From what tests are simulated: of many simulations the first and how many more there are; empty for none."""
+    first, *others = simulated.split("; ")
+    return f"Simulated: {first}{f' and {len(others)} more' if others else ''}" if simulated else ""
+
+
 def over_said(over: Mapping[str, float]) -> str:
     """`stiffness X 1.8 times its limit, squareness XY 1.2`, the furthest first."""
     ordered = sorted(over.items(), key=lambda item: -item[1])
@@ -61,4 +67,5 @@ def entry(row: AlarmRow) -> dict[str, object]:
         "at": iso(row.at),
         "holds": list(row.holds),
         "silent_until": iso(row.silent_until),
+        "simulated": row.simulated or None,
     }
