@@ -2,7 +2,8 @@
 
 step : `open`, `worse`, `released`, `closed as repaired` or `closed as false`
 alarm : {number, machine, series, instrument, state, opened, over, confirmed, who, why, at, holds, silent_until,
-    simulated}; `over` is by indicator how many limits it was off at most; `holds` are machines whose alarms an instrument's alarm holds back
+    simulated}; `over` is by indicator how many limits it was off at most; `holds` are machines whose alarms an
+    instrument's alarm holds back
 change : the document of the verdict that caused it, `elastogeo.change/1` without its chart, or null
 simulated : from what the tests are simulated, or null
 """
