@@ -34,7 +34,7 @@ CHECKS = [
 TASKS = {
     "demo": (
         "identify the example test, print the result, write the report",
-        ["report"],
+        ["report", "history"],
         [("demo", ["-m", "elastogeo", "demo"])],
     ),
     "test": ("run every test", DEVELOPER, [("test", PYTEST)]),
