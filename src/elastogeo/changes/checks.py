@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import isfinite
 
 import numpy as np
-from scipy.special import chdtri, ndtri, stdtrit
+from scipy.special import fdtrc, ndtri, stdtrit
 
 from elastogeo.changes.causes import Cause
 from elastogeo.changes.change_points import ChangePoint, Since
@@ -35,6 +35,9 @@ SURE = 0.01
 
 FEWEST = 4
 """Tests of a baseline from which it has a trend."""
+
+_KNOWN = 1e9
+"""Degrees of freedom of a scatter that is known."""
 
 FEWEST_PAIRS = 8
 """Pairs of successive tests from which they are told to depend on one another."""
@@ -159,7 +162,8 @@ def _expected(departure: Array, reference: Reference, prior: Prior, series: Seri
             continue
         tried += 1
         squares = float(np.sum((shown - shown.mean()) ** 2))
-        if squares > chdtri(freedom, SURE / len(series.indicators)) * expected**2:
+        worth = min(float(np.broadcast_to(prior.degrees_of_freedom, reference.mean.shape)[k]), _KNOWN)
+        if fdtrc(freedom, worth, squares / freedom / expected**2) < SURE / len(series.indicators):
             beyond[name] = (float(np.sqrt(squares / freedom)), expected)
     units = {name: kind.unit for name, kind in zip(series.indicators, series.kinds, strict=True)}
     return Check(EXPECTED_SCATTER, not beyond if tried else None, {"beyond": beyond, "units": units})
