@@ -10,13 +10,13 @@ demo: ## identify the example test, print the result, write the report
 test: ## set up everything that the tests need and run all of them
 	@$(PYTHON) make.py test
 
-bench: ## time whole commands, the solver, campaigns, plans, programs, maps and paths (minutes)
+bench: ## time whole commands, the solver, campaigns, plans, programs, maps, paths and a history (minutes)
 	@$(PYTHON) make.py bench
 
 studies: ## count how often each check of a verdict is right, and write docs/verdicts.md (half an hour)
 	@$(PYTHON) make.py studies
 
-nightly: ## the tests that take too long for every day, then the studies
+nightly: ## the tests that take too long for every day, then the studies and a large history
 	@$(PYTHON) make.py nightly
 
 check: ## lint, format, types and import layers

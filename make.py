@@ -39,7 +39,7 @@ TASKS = {
     ),
     "test": ("run every test", DEVELOPER, [("test", PYTEST)]),
     "bench": (
-        "time whole commands, the solver, campaigns, plans, programs, maps and paths (minutes)",
+        "time whole commands, the solver, campaigns, plans, programs, maps, paths and a history (minutes)",
         DEVELOPER,
         [
             ("commands", ["benchmarks/commands.py"]),
@@ -51,6 +51,7 @@ TASKS = {
             ("maps", ["benchmarks/maps.py"]),
             ("paths", ["benchmarks/paths.py"]),
             ("changes", ["benchmarks/changes.py"]),
+            ("history", ["benchmarks/history.py"]),
         ],
     ),
     "studies": (
@@ -59,9 +60,13 @@ TASKS = {
         [("studies", ["-m", "studies.run"]), ("coverage", ["-m", "studies.coverage"])],
     ),
     "nightly": (
-        "the tests that take too long for every day, then the studies",
+        "the tests that take too long for every day, then the studies and a large history",
         DEVELOPER,
-        [("long tests", [*PYTEST, "-m", "nightly"]), ("studies", ["-m", "studies.run"])],
+        [
+            ("long tests", [*PYTEST, "-m", "nightly"]),
+            ("studies", ["-m", "studies.run"]),
+            ("large history", ["benchmarks/history.py", "1000", "500"]),
+        ],
     ),
     "check": ("lint, format, types (mypy --strict) and import layers", DEVELOPER, CHECKS),
     "docs": (

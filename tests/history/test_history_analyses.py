@@ -1,6 +1,7 @@
 """Plans and recomputations through the door of the history and on the command line."""
 
 import json
+import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -9,7 +10,7 @@ import pytest
 
 import elastogeo as eg
 from elastogeo.cli import main
-from elastogeo.history.analyses import analyse
+from elastogeo.history.analyses import analyse, campaign_text
 from elastogeo.history.store import open_store
 from tests.history.analyses.kept import EXAMPLES, files_of, keep_series, keep_test
 from tests.history.conftest import Clock
@@ -129,3 +130,26 @@ def test_a_new_version_judges_the_series_again_and_tells_nobody(shop: str, monke
         found = history.recompute()
     assert found.switched == {"Mill 3: circle XY": (eg.__version__, "99.0")}
     assert judged == [(1, None)]
+
+
+def test_a_campaign_comes_in_with_its_tests_and_says_the_same_again(run: Run, tmp_path: Path) -> None:
+    folder = tmp_path / "campaign"
+    shutil.copytree(EXAMPLES / "three-axis-campaign" / "1-xy", folder / "1-xy")
+    shutil.copytree(EXAMPLES / "three-axis-campaign" / "2-yz", folder / "2-yz")
+    shutil.copy(EXAMPLES / "three-axis-campaign" / "machine.toml", folder)
+    (folder / "campaign.toml").write_text(campaign_text("spring", ["1-xy", "2-yz"], ["C_XXX", "C_YYY"]), encoding="utf-8")
+    code, out, err = run("campaign", folder, "--machine", "Mill 3", "--date", "2026-03-01")
+    assert (code, "Campaign: spring, Mill 3" in out) == (0, True), err
+    code, out, _ = run("campaign")
+    assert (code, out.strip()) == (0, "1  Mill 3: spring, 2 tests")
+    code, out, _ = run("campaign", "--recompute", 1)
+    assert (code, "Computed again, it is the same to the last bit." in out) == (0, True)
+    code, _, err = run("campaign", folder, "--machine", "Mill 3", "--date", "2026-03-01")
+    assert (code, "has a campaign 'spring' already" in err) == (2, True)
+
+
+def test_what_is_no_campaign_is_refused_and_nothing_is_imported(run: Run, tmp_path: Path) -> None:
+    code, _, err = run("campaign", tmp_path, "--machine", "Mill 3")
+    assert (code, "name a folder with a campaign.toml" in err) == (2, True)
+    code, out, _ = run("campaign")
+    assert (code, out.strip()) == (0, "No campaign.")

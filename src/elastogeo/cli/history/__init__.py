@@ -3,7 +3,7 @@
 GROUP = "Keep the tests of machines, and say what has changed."
 ORDER = (
     "init", "import", "watch", "list", "show", "baseline", "tolerance", "interval", "machine", "instrument", "event",
-    "aside", "plan", "recompute", "acknowledge", "close", "silence", "recipient", "deliver", "digest", "export", "backup",
-    "restore", "verify", "audit", "rules", "demo",
+    "aside", "campaign", "plan", "recompute", "acknowledge", "close", "silence", "recipient", "deliver", "digest",
+    "export", "backup", "restore", "verify", "audit", "rules", "demo",
 )  # fmt: skip
 """In which the help lists the commands."""
