@@ -18,7 +18,7 @@ import numpy as np
 from sqlalchemy import Connection, LargeBinary, Table, column, insert, table, text
 
 import elastogeo as eg
-from elastogeo.changes import KINDS
+from elastogeo.changes import KINDS, signatures_of
 from elastogeo.history.intake.recipes import recipe_of
 from elastogeo.history.store import Store, open_store, schema, write
 from elastogeo.history.store.columns import canonical
@@ -78,14 +78,16 @@ def _url(database: str, folder: Path) -> Iterator[str]:
 def fill(store: Store, machines: int, tests: int) -> None:
     """Write machines with one series each, whose tests are all ordinary."""
     recipe = recipe_of(eg.read_test(SAMPLE))
-    document = canonical(eg.identify(eg.read_test(SAMPLE)).to_dict()).encode()
-    packed, hashed = zlib.compress(document, 6), sha256(document).hexdigest()
+    result = eg.identify(eg.read_test(SAMPLE))
+    moved = signatures_of(result)
+    assert moved is not None
+    kept = [canonical(one).encode() for one in (result.to_dict(), moved.document())]
     random = np.random.default_rng(11)
     for first in range(0, machines, 10):
         with write(store) as connection:
             for k in range(first, min(first + 10, machines)):
                 _machine(connection, k, recipe)
-                _tests(connection, k, tests, random, packed, hashed)
+                _tests(connection, k, tests, random, *kept)
     with write(store) as connection:
         _number_on(connection)
 
@@ -100,7 +102,11 @@ def _machine(connection: Connection, k: int, recipe: Any) -> None:
     _add(connection, schema.series, [{**row, "software": VERSION, "interval_days": 30.0}])
 
 
-def _tests(connection: Connection, k: int, tests: int, random: np.random.Generator, packed: bytes, hashed: str) -> None:
+def _tests(connection: Connection, k: int, tests: int, random: np.random.Generator, document: bytes, moved: bytes) -> None:
+    packed, hashed = (
+        {"document": zlib.compress(document, 6), "signatures": zlib.compress(moved, 6)},
+        sha256(document).hexdigest(),
+    )
     keys = np.arange(k * tests, (k + 1) * tests) + 1
     dates = [BEGAN + i * APART for i in range(tests)]
     shared = {"series": k + 1, "instrument": k + 1, "origin": "simulated", "from_what": "rows of a benchmark", "about": {}}
@@ -118,10 +124,10 @@ def _tests(connection: Connection, k: int, tests: int, random: np.random.Generat
     _add(connection, schema.test_file, [{"test": key, "path": path, "sha256": found} for key, path, found in names])
     _add(
         connection,
-        table("analysis", *(column(c.name, LargeBinary() if c.name == "document" else c.type) for c in schema.analysis.c)),
+        table("analysis", *(column(c.name, LargeBinary() if c.name in packed else c.type) for c in schema.analysis.c)),
         [
             {"id": int(key), "test": int(key), "software": VERSION, "settings": {"verb": "identify"}, "supported": True,
-             "inputs_sha256": _hash("inputs", key), "made_at": at, "document_sha256": hashed, "document": packed}
+             "inputs_sha256": _hash("inputs", key), "made_at": at, "document_sha256": hashed, **packed}
             for key, at in zip(keys, dates, strict=True)
         ],
     )  # fmt: skip

@@ -16,6 +16,7 @@ from elastogeo.changes import (
     AuditTrail,
     ChangeVerdict,
     FleetState,
+    KeptCampaign,
     KeptPlans,
     Kind,
     MachineState,
@@ -34,13 +35,18 @@ from elastogeo.history.alarms.judging import judged
 from elastogeo.history.alarms.states import fleet
 from elastogeo.history.analyses import (
     analyse,
+    campaign_file,
+    campaigns,
     due_date,
     finish_plan,
+    keep_campaign,
     keep_parts,
     keep_plan,
+    kept_campaign,
     plans,
     read_plan,
     recompute,
+    recompute_campaign,
     unanalysed,
 )
 from elastogeo.history.intake.asides import KnownTest, set_test_aside
@@ -389,6 +395,36 @@ class History:
         for key in found.changed:
             assess(self.store, key)
         return found
+
+    def add_campaign(self, path: str | Path, *, machine: str | None = None, date: str = "") -> KeptCampaign:
+        """Import the tests of a campaign, those that are not known yet, and keep them as a set with what they say together.
+
+        Parameters
+        ----------
+        path : str or Path
+            A folder with a `campaign.toml`; the tests lie in folders beside it.
+        machine, date : str
+            As of `add`.
+
+        Raises
+        ------
+        InputError
+            If a test is refused, or the tests cannot be asked together: those that came in before stay.
+        """
+        text, folders = campaign_file(Path(path))
+        added = {name: self.add(folder, machine=machine, date=date) for name, folder in folders.items()}
+        tests = {name: one.imported.test for name, one in added.items() if one.imported is not None}
+        return keep_campaign(self.store, text, tests, self.who)
+
+    def campaigns(self, machine: str | None = None) -> tuple[KeptCampaign, ...]:
+        """The campaigns of a machine, or of all, in the order in which they were kept."""
+        with read(self.store) as connection:
+            of = None if machine is None else machine_named(connection, machine).key
+            return tuple(kept_campaign(connection, key) for key in campaigns(connection, of))
+
+    def recompute_campaign(self, number: int) -> KeptCampaign:
+        """Ask the tests of a campaign again: the same version must say the same, a new one replaces what was said."""
+        return recompute_campaign(self.store, number, self.who)
 
     def keep_plan(self, plan: Plan | str | Path, *, machine: str, name: str = "", due: str = "", grace: float = 7.0) -> int:
         """Keep a plan of tests for a machine, until when it is to be done, and after how many days it is overdue.

@@ -108,11 +108,13 @@ def asides_of(connection: Connection, key: int) -> set[int]:
 
 def _signatures(connection: Connection, analyses: Sequence[int]) -> Signatures | None:
     """How faults move the indicators: of the first of these analyses that says it, since one test of a series serves."""
-    for key in analyses:
-        found = connection.execute(select(analysis.c.signatures).where(analysis.c.id == key)).scalar_one()
-        if found is not None:
-            return Signatures.of_document(found)
-    return None
+    known = select(analysis.c.id).where(analysis.c.id.in_(analyses), analysis.c.signatures.is_not(None))
+    there = set(connection.execute(known).scalars())
+    first = next((key for key in analyses if key in there), None)
+    if first is None:
+        return None
+    kept = select(analysis.c.signatures).where(analysis.c.id == first)
+    return Signatures.of_document(connection.execute(kept).scalar_one())
 
 
 def _counting(key: int, software: str) -> Any:
