@@ -7,8 +7,8 @@ that could not be analysed stands in the series without a number; one that this 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
@@ -18,6 +18,7 @@ from sqlalchemy import Connection, Select, and_, func, select
 from elastogeo.changes import KINDS, MOST, Kind, Series, Signatures
 from elastogeo.errors import InputError
 from elastogeo.history.store.schema import analysis, baseline, indicator, instrument, machine, series, set_aside, test
+from elastogeo.machine import Array
 
 _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 _DAY = timedelta(days=1)
@@ -25,6 +26,17 @@ _NO_NUMBER = float("nan")
 
 SHARE = 0.5
 """An indicator is one of the series if this share of the tests that decide determines it."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Told:
+    """What the tests of a series say, an entry an indicator of a test: `tests` are places in the series."""
+
+    tests: np.ndarray[Any, Any]
+    names: list[str]
+    kinds: dict[str, str]
+    value: Array
+    standard_uncertainty: Array
 
 
 def days(at: datetime) -> float:
@@ -70,20 +82,13 @@ def series_of(connection: Connection, key: int) -> Series:
         raise InputError(f"there is no series {key}; `elastogeo history list` shows those that there are")
     counting = _counting(key, head.software)
     rows = connection.execute(_tests(key, counting)).all()
-    told = connection.execute(
-        select(indicator.c.analysis, indicator.c.name, indicator.c.kind, indicator.c.value, indicator.c.standard_uncertainty)
-        .join(counting, counting.c.analysis == indicator.c.analysis)
-        .order_by(indicator.c.id)
-    ).all()
+    told = _told(connection, counting, {row.analysis: k for k, row in enumerate(rows)})
     aside = asides_of(connection, key)
-    deciding = baseline_tests(connection, key) or {row.id for row in rows} - aside
-    names = _names(told, {row.analysis: row.id for row in rows}, deciding)
-    made = _series(f"{head.machine}: {head.name}", rows, told, names, aside)
-    return replace(
-        made,
-        machine=head.machine,
-        signatures=_signatures(connection, [row.analysis for row in rows if row.id in deciding]),
-    )
+    chosen = baseline_tests(connection, key)
+    decides = np.array([row.id in chosen if chosen else row.id not in aside for row in rows], dtype=bool)
+    made = _series(f"{head.machine}: {head.name}", rows, told, _names(told, decides), aside)
+    deciding = [row.analysis for row, one in zip(rows, decides, strict=True) if one]
+    return replace(made, machine=head.machine, signatures=_signatures(connection, deciding))
 
 
 def baseline_tests(connection: Connection, key: int) -> set[int]:
@@ -147,30 +152,41 @@ def _tests(key: int, counting: Any) -> Select[Any]:
     )
 
 
-def _names(told: Iterable[Any], tests: Mapping[int, int], deciding: set[int]) -> dict[str, str]:
-    """The kinds of the indicators of the series by their names, in their order; `tests` by analysis, as they were made."""
-    place = {found: k for k, found in enumerate(tests)}
-    kinds: dict[str, str] = {}
-    counts: Counter[str] = Counter()
-    for row in sorted(told, key=lambda row: place[row.analysis]):
-        if tests[row.analysis] in deciding:
-            kinds.setdefault(row.name, row.kind)
-            counts[row.name] += 1
-    enough = SHARE * len(deciding.intersection(tests.values()))
-    common = [name for name in kinds if counts[name] >= enough]
-    return {name: kinds[name] for name in sorted(common, key=lambda name: -counts[name])[:MOST]}
+def _told(connection: Connection, counting: Any, place: Mapping[int, int]) -> _Told:
+    """What the tests say, in the order of the tests; `place` of each by its analysis."""
+    asked = (
+        select(indicator.c.analysis, indicator.c.name, indicator.c.kind, indicator.c.value, indicator.c.standard_uncertainty)
+        .join(counting, counting.c.analysis == indicator.c.analysis)
+        .order_by(indicator.c.id)
+    )
+    rows = connection.execute(asked).all()
+    analyses, names, kinds, values, uncertainties = zip(*rows, strict=True) if rows else ((),) * 5
+    tests = np.array([place[one] for one in analyses], dtype=int)
+    order = np.argsort(tests, kind="stable")
+    return _Told(
+        tests[order],
+        [names[k] for k in order],
+        dict(zip(names, kinds, strict=True)),
+        np.array(values, dtype=float)[order],
+        np.array(uncertainties, dtype=float)[order],
+    )
 
 
-def _series(name: str, rows: Sequence[Any], told: Iterable[Any], names: Mapping[str, str], aside: set[int]) -> Series:
+def _names(told: _Told, decides: np.ndarray[Any, Any]) -> dict[str, str]:
+    """The kinds of the indicators of the series by their names, in their order."""
+    counts = Counter(name for name, one in zip(told.names, decides[told.tests], strict=True) if one)
+    common = [name for name, count in counts.most_common() if count >= SHARE * decides.sum()]
+    return {name: told.kinds[name] for name in common[:MOST]}
+
+
+def _series(name: str, rows: Sequence[Any], told: _Told, names: Mapping[str, str], aside: set[int]) -> Series:
     place = {row.id: k for k, row in enumerate(rows)}
-    by_analysis = {row.analysis: k for k, row in enumerate(rows)}
     column = {called: k for k, called in enumerate(names)}
+    columns = np.array([column.get(called, -1) for called in told.names], dtype=int)
+    watched = columns >= 0
+    at = told.tests[watched], columns[watched]
     value, uncertainty = np.full((2, len(rows), len(names)), np.nan)
-    for row in told:
-        if row.name in column:
-            at = by_analysis[row.analysis], column[row.name]
-            value[at] = row.value
-            uncertainty[at] = _NO_NUMBER if row.standard_uncertainty is None else row.standard_uncertainty
+    value[at], uncertainty[at] = told.value[watched], told.standard_uncertainty[watched]
     return Series(
         name=name,
         indicators=tuple(names),
