@@ -1,7 +1,6 @@
 """Plans and recomputations through the door of the history and on the command line."""
 
 import json
-import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -10,7 +9,7 @@ import pytest
 
 import elastogeo as eg
 from elastogeo.cli import main
-from elastogeo.history.analyses import analyse, campaign_text
+from elastogeo.history.analyses import analyse, campaign_text, keep_campaign
 from elastogeo.history.store import open_store
 from tests.history.analyses.kept import EXAMPLES, files_of, keep_series, keep_test
 from tests.history.conftest import Clock
@@ -132,24 +131,23 @@ def test_a_new_version_judges_the_series_again_and_tells_nobody(shop: str, monke
     assert judged == [(1, None)]
 
 
-def test_a_campaign_comes_in_with_its_tests_and_says_the_same_again(run: Run, tmp_path: Path) -> None:
-    folder = tmp_path / "campaign"
-    shutil.copytree(EXAMPLES / "three-axis-campaign" / "1-xy", folder / "1-xy")
-    shutil.copytree(EXAMPLES / "three-axis-campaign" / "2-yz", folder / "2-yz")
-    shutil.copy(EXAMPLES / "three-axis-campaign" / "machine.toml", folder)
-    (folder / "campaign.toml").write_text(campaign_text("spring", ["1-xy", "2-yz"], ["C_XXX", "C_YYY"]), encoding="utf-8")
-    code, out, err = run("campaign", folder, "--machine", "Mill 3", "--date", "2026-03-01")
-    assert (code, "Campaign: spring, Mill 3" in out) == (0, True), err
+def test_campaigns_are_listed_shown_and_asked_again(run: Run, shop: str) -> None:
+    machine = {"../machine.toml": (EXAMPLES / "three-axis-campaign" / "machine.toml").read_bytes()}
+    with open_store(shop) as store:
+        files = {name: files_of(EXAMPLES / "three-axis-campaign" / name) | machine for name in ("1-xy", "2-yz")}
+        tests = {name: keep_test(store, 1, found, name=name) for name, found in files.items()}
+        keep_campaign(store, campaign_text("spring", tests, ["C_XXX", "C_YYY"]), tests)
     code, out, _ = run("campaign")
     assert (code, out.strip()) == (0, "1  Mill 3: spring, 2 tests")
-    code, out, _ = run("campaign", "--recompute", 1)
-    assert (code, "Computed again, it is the same to the last bit." in out) == (0, True)
-    code, _, err = run("campaign", folder, "--machine", "Mill 3", "--date", "2026-03-01")
-    assert (code, "has a campaign 'spring' already" in err) == (2, True)
+    code, out, _ = run("campaign", 1)
+    assert (code, "Campaign: spring, Mill 3" in out, "Computed again" in out) == (0, True, False)
+    code, out, _ = run("campaign", 1, "--recompute", "--json")
+    kept = json.loads(out)
+    assert (code, kept["same_bits"], kept["tests"]) == (0, True, tests)
+    code, _, err = run("campaign", 2)
+    assert (code, "there is no campaign 2" in err) == (2, True)
 
 
-def test_what_is_no_campaign_is_refused_and_nothing_is_imported(run: Run, tmp_path: Path) -> None:
-    code, _, err = run("campaign", tmp_path, "--machine", "Mill 3")
-    assert (code, "name a folder with a campaign.toml" in err) == (2, True)
-    code, out, _ = run("campaign")
-    assert (code, out.strip()) == (0, "No campaign.")
+def test_a_history_without_campaigns_says_so(run: Run) -> None:
+    assert run("campaign")[1].strip() == "No campaign."
+    assert json.loads(run("campaign", "--json")[1])["campaigns"] == []

@@ -35,11 +35,9 @@ from elastogeo.history.alarms.judging import judged
 from elastogeo.history.alarms.states import fleet
 from elastogeo.history.analyses import (
     analyse,
-    campaign_file,
     campaigns,
     due_date,
     finish_plan,
-    keep_campaign,
     keep_parts,
     keep_plan,
     kept_campaign,
@@ -396,31 +394,16 @@ class History:
             assess(self.store, key)
         return found
 
-    def add_campaign(self, path: str | Path, *, machine: str | None = None, date: str = "") -> KeptCampaign:
-        """Import the tests of a campaign, those that are not known yet, and keep them as a set with what they say together.
-
-        Parameters
-        ----------
-        path : str or Path
-            A folder with a `campaign.toml`; the tests lie in folders beside it.
-        machine, date : str
-            As of `add`.
-
-        Raises
-        ------
-        InputError
-            If a test is refused, or the tests cannot be asked together: those that came in before stay.
-        """
-        text, folders = campaign_file(Path(path))
-        added = {name: self.add(folder, machine=machine, date=date) for name, folder in folders.items()}
-        tests = {name: one.imported.test for name, one in added.items() if one.imported is not None}
-        return keep_campaign(self.store, text, tests, self.who)
-
     def campaigns(self, machine: str | None = None) -> tuple[KeptCampaign, ...]:
         """The campaigns of a machine, or of all, in the order in which they were kept."""
         with read(self.store) as connection:
             of = None if machine is None else machine_named(connection, machine).key
             return tuple(kept_campaign(connection, key) for key in campaigns(connection, of))
+
+    def campaign(self, number: int) -> KeptCampaign:
+        """A campaign, with what its tests say together."""
+        with read(self.store) as connection:
+            return kept_campaign(connection, number)
 
     def recompute_campaign(self, number: int) -> KeptCampaign:
         """Ask the tests of a campaign again: the same version must say the same, a new one replaces what was said."""

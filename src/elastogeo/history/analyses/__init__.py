@@ -7,7 +7,6 @@ from elastogeo.discovery import first_use
 if TYPE_CHECKING:
     from elastogeo.history.analyses.analysing import PROGRAM, analyse, last_analysis, unanalysed
     from elastogeo.history.analyses.kept_campaigns import (
-        campaign_file,
         campaign_text,
         campaigns,
         keep_campaign,
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
 __all__ = [
     "PROGRAM",
     "analyse",
-    "campaign_file",
     "campaign_text",
     "campaigns",
     "due_date",
@@ -44,7 +42,6 @@ __getattr__ = first_use(
     {
         "analysing": "PROGRAM analyse last_analysis unanalysed",
         "kept_campaigns": "campaign_text campaigns keep_campaign keep_parts kept_campaign recompute_campaign",
-        "kept_campaigns": "campaign_file campaign_text campaigns keep_campaign kept_campaign recompute_campaign",
         "kept_plans": "due_date finish_plan keep_plan plans read_plan",
         "recomputing": "outdated recompute",
     },

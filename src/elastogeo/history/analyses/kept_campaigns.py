@@ -42,24 +42,6 @@ def campaign_text(name: str, tests: Iterable[str], parameters: Iterable[str] = (
     return "\n".join([*lines, *(["", "[question]", f"parameters = {json.dumps(asked)}"] if asked else []), ""])
 
 
-def campaign_file(path: Path) -> tuple[str, dict[str, Path]]:
-    """The text of a campaign file, and the folders of its tests by their names.
-
-    Raises
-    ------
-    FormatError
-        If it cannot be opened, or is no campaign file.
-    """
-    file = path / CAMPAIGN if path.is_dir() else path
-    try:
-        text = file.read_text(encoding="utf-8")
-    except OSError as error:
-        raise FormatError(f"{file}: cannot be opened ({error.strerror}); name a folder with a {CAMPAIGN}") from None
-    except UnicodeDecodeError:
-        raise FormatError(f"{file}: is no UTF-8 text; save it as UTF-8") from None
-    return text, {name: file.parent / name for name in _document(text)["tests"]}
-
-
 def keep_campaign(store: Store, text: str, tests: Mapping[str, int], who: str = PROGRAM) -> KeptCampaign:
     """Keep tests of one machine as a set, with what they say together.
 

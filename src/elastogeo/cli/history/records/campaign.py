@@ -1,8 +1,7 @@
-"""`elastogeo history campaign`: keep tests as a set, with what they say together."""
+"""`elastogeo history campaign`: the sets of tests that were asked together, and what they say."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -12,43 +11,34 @@ from elastogeo.cli.options import STORE, AsJson, Store, Who
 
 
 def campaign(
-    path: Annotated[
-        Path | None, typer.Argument(metavar="[CAMPAIGN]", help="A folder with a campaign.toml; none: list the campaigns.")
-    ] = None,
-    machine: Annotated[
-        str | None, typer.Option("--machine", "-m", help="The machine, by name; else as the tests say.")
-    ] = None,
-    date: Annotated[str, typer.Option(help="When it was measured, if a test does not say so.")] = "",
-    recompute: Annotated[int | None, typer.Option(help="The number of a campaign to compute again.")] = None,
+    number: Annotated[int | None, typer.Argument(metavar="[NUMBER]", help="Of a campaign; none: list them.")] = None,
+    recompute: Annotated[bool, typer.Option("--recompute", help="Ask its tests again, from their raw records.")] = False,
+    machine: Annotated[str | None, typer.Option("--machine", "-m", help="List those of this machine only.")] = None,
     store: Store = STORE,
     who: Who = "",
     as_json: AsJson = False,
 ) -> None:
-    """Keep tests as a set, with what they say together.
+    """Show tests that are kept as a set, and what they say together.
 
-    Tests that are not in the history are imported. They are identified together from their raw records.
+    A campaign comes in with its tests: `elastogeo history import` of its folder.
 
     \b
     Examples:
-      elastogeo history campaign my-campaign --machine "Mill 3"
       elastogeo history campaign
-      elastogeo history campaign --recompute 1
+      elastogeo history campaign 1
+      elastogeo history campaign 1 --recompute
     """
     from elastogeo.cli import screen
 
     with eg.History(store, who=who) as history, screen.progress("identifying", quiet=as_json):
-        if path is not None:
-            found = history.add_campaign(path, machine=machine, date=date)
-        elif recompute is not None:
-            found = history.recompute_campaign(recompute)
+        if number is not None:
+            found = history.recompute_campaign(number) if recompute else history.campaign(number)
         else:
             kept = history.campaigns(machine)
-            found = None
-    if found is not None:
+    if number is not None:
         screen.show(found, None, as_json)
     elif as_json:
         screen.show_json({"schema": "elastogeo.campaigns-kept/1", "campaigns": [one.to_dict() for one in kept]})
     else:
-        screen.say(
-            "\n".join(f"{one.key}  {one.machine}: {one.name}, {len(one.tests)} tests" for one in kept) or "No campaign."
-        )
+        lines = [f"{one.key}  {one.machine}: {one.name}, {len(one.tests)} tests" for one in kept]
+        screen.say("\n".join(lines) or "No campaign.")
