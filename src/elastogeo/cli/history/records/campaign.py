@@ -18,7 +18,7 @@ def campaign(
     who: Who = "",
     as_json: AsJson = False,
 ) -> None:
-    """Show tests that are kept as a set, and what they say together.
+    """Show sets of tests, and what they say together.
 
     A campaign comes in with its tests: `elastogeo history import` of its folder.
 
