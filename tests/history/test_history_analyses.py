@@ -121,7 +121,7 @@ class Changed:
 def test_a_new_version_judges_the_series_again_and_tells_nobody(shop: str, monkeypatch: pytest.MonkeyPatch) -> None:
     judged: list[tuple[int, int | None]] = []
     monkeypatch.setattr(
-        "elastogeo.history.history.assess", lambda _, series, live=None: judged.append((series, live)), raising=True
+        "elastogeo.history.records.assess", lambda _, series, live=None: judged.append((series, live)), raising=True
     )
     for module in ("analysing", "recomputing"):
         monkeypatch.setattr(f"elastogeo.history.analyses.{module}.VERSION", "99.0")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -16,11 +16,8 @@ from elastogeo.changes import (
     AuditTrail,
     ChangeVerdict,
     FleetState,
-    KeptCampaign,
-    KeptPlans,
     Kind,
     MachineState,
-    Recomputed,
     RuleTest,
     Tolerance,
     Verified,
@@ -35,16 +32,7 @@ from elastogeo.history.alarms.judging import judged
 from elastogeo.history.alarms.states import fleet
 from elastogeo.history.analyses import (
     analyse,
-    campaigns,
-    due_date,
-    finish_plan,
     keep_parts,
-    keep_plan,
-    kept_campaign,
-    plans,
-    read_plan,
-    recompute,
-    recompute_campaign,
     unanalysed,
 )
 from elastogeo.history.intake.asides import KnownTest, set_test_aside
@@ -57,17 +45,16 @@ from elastogeo.history.intake.machines import KnownMachine, add_machine, machine
 from elastogeo.history.intake.notebook import notebook_of
 from elastogeo.history.intake.watching import EVERY, SETTLE, Seen, Watch
 from elastogeo.history.names import KnownSeries, series_named, series_of_machine
+from elastogeo.history.records import Records
 from elastogeo.history.requirements.baselines import Chosen, choose, set_baseline
 from elastogeo.history.requirements.intervals import set_interval
 from elastogeo.history.requirements.tolerances import kind_of, set_tolerance
-from elastogeo.history.series_of import days
 from elastogeo.history.store import Store, audit, now, open_store, read
 from elastogeo.history.upkeep.backups import back_up
 from elastogeo.history.upkeep.exports import export
 from elastogeo.history.upkeep.manifests import Copied
 from elastogeo.history.upkeep.raw_copies import Step, silent
 from elastogeo.history.upkeep.verification import verify
-from elastogeo.planning import Plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +89,7 @@ class Added:
         return self.imported is not None and self.imported.new
 
 
-class History:
+class History(Records):
     """Machines and their tests over the years.
 
     Parameters
@@ -376,77 +363,6 @@ class History:
             key = series_named(connection, machine, series).key
         set_interval(self.store, key, days, grace, who=self.who, why=why)
         assess(self.store, key)
-
-    def recompute(
-        self, series: Iterable[int] | None = None, *, progress: Callable[[str], None] | None = None, jobs: int = 1
-    ) -> Recomputed:
-        """Compute series, by default all, again from their raw records; a new version takes them over, each as a whole.
-
-        Those whose charts changed by it are judged again; nobody is told.
-
-        Raises
-        ------
-        InputError
-            If there is no such series, or a later version than this one computed it.
-        """
-        found = recompute(self.store, series, self.who, progress, jobs)
-        for key in found.changed:
-            assess(self.store, key)
-        return found
-
-    def campaigns(self, machine: str | None = None) -> tuple[KeptCampaign, ...]:
-        """The campaigns of a machine, or of all, in the order in which they were kept."""
-        with read(self.store) as connection:
-            of = None if machine is None else machine_named(connection, machine).key
-            return tuple(kept_campaign(connection, key) for key in campaigns(connection, of))
-
-    def campaign(self, number: int) -> KeptCampaign:
-        """A campaign, with what its tests say together."""
-        with read(self.store) as connection:
-            return kept_campaign(connection, number)
-
-    def recompute_campaign(self, number: int) -> KeptCampaign:
-        """Ask the tests of a campaign again: the same version must say the same, a new one replaces what was said."""
-        return recompute_campaign(self.store, number, self.who)
-
-    def keep_plan(self, plan: Plan | str | Path, *, machine: str, name: str = "", due: str = "", grace: float = 7.0) -> int:
-        """Keep a plan of tests for a machine, until when it is to be done, and after how many days it is overdue.
-
-        Parameters
-        ----------
-        plan : Plan, str or Path
-            From `eg.plan`, or the file that `elastogeo plan --json` printed.
-        machine, name : str
-            By default the plan is called after its file, or the day.
-        due : str
-            `2026-05-01`; empty: no date.
-        grace : float [d]
-
-        Returns
-        -------
-        int
-            Its number.
-
-        Raises
-        ------
-        InputError
-            If it is no plan, or the machine has one of this name.
-        """
-        document = plan.to_dict() if isinstance(plan, Plan) else read_plan(Path(plan))
-        called = name or (f"{now():%Y-%m-%d}" if isinstance(plan, Plan) else Path(plan).stem)
-        with read(self.store) as connection:
-            owner = machine_named(connection, machine).key
-        return keep_plan(self.store, owner, called, document, due_date(due), grace, self.who)
-
-    def finish_plan(self, number: int, why: str = "") -> None:
-        """Say that a plan was done."""
-        finish_plan(self.store, number, self.who, why)
-
-    def plans(self, machine: str | None = None) -> KeptPlans:
-        """The plans of a machine, or of all, the most urgent first."""
-        with read(self.store) as connection:
-            of = None if machine is None else machine_named(connection, machine).key
-            return KeptPlans(self.store.url, days(now()), plans(connection, now(), of))
 
     def alarms(self) -> AlarmList:
         """All that waits for somebody: open alarms, overdue tests, messages that did not arrive."""
