@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryDirectory, gettempdir
 
 from sqlalchemy import Connection, select
 
@@ -52,9 +52,16 @@ def laid_out(files: Files, raw: Sequence[RawFile], name: str = TEST) -> Iterator
     StoreError
         If a file is missing or damaged in the store, or its path would leave the temporary folder.
     """
-    with TemporaryDirectory(prefix="elastogeo-", ignore_cleanup_errors=True) as top:
-        folder = Path(top).resolve().joinpath(*["up"] * most_up(raw), name)
-        lay_out(files, raw, folder)
+    with ExitStack() as stack:
+        try:
+            top = stack.enter_context(TemporaryDirectory(prefix="elastogeo-", ignore_cleanup_errors=True))
+            folder = Path(top).resolve().joinpath(*["up"] * most_up(raw), name)
+            lay_out(files, raw, folder)
+        except OSError as error:
+            raise StoreError(
+                f"{error.filename or gettempdir()}: {error.strerror}; the raw files could not be laid out for the analysis; "
+                f"free some room there, or name another folder in TMPDIR"
+            ) from error
         yield folder
 
 

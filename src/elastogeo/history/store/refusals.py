@@ -15,6 +15,7 @@ _SAID = {
     "is full": "there is no room on the disk; nothing was kept of this step; free some, then repeat it",
     "no space left": "there is no room on the server's disk; nothing was kept of this step; free some, then repeat it",
     "disk i/o error": "the disk failed while it was read or written; check the disk, then: elastogeo history verify",
+    "input/output error": "the server's disk failed; nothing was kept of this step; check that disk, then repeat it",
     "is malformed": "is damaged; restore it from a backup: elastogeo history restore",
     "not a database": "is no file of SQLite, or is damaged; name the right file, or restore it from a backup",
     "readonly": "may only be read here; ask for the right to write the file and its folder",
