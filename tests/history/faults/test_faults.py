@@ -159,7 +159,7 @@ CODES = pytest.mark.parametrize("code", [errno.ENOSPC, errno.EIO], ids=["no room
 @CODES
 def test_import_at_each_write(mill: Store, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int) -> None:
     """Another test each time, since raw files that an attempt kept are not written again; then all of them come in."""
-    folders = [write_test(tmp_path / f"{k}", seed=k) for k in range(60)]
+    folders = [write_test(tmp_path / f"{k}", seed=100 + k) for k in range(60)]
 
     def attempt(number: int) -> int:
         return import_test(mill, folders[number], machine="Mill 3", who="the tests").test
