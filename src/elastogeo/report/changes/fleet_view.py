@@ -29,8 +29,8 @@ def fleet_view(fleet: FleetState) -> View:
     tables = (*((moves,) if moves is not None else ()), table) if fleet.machines else ()
     return View(
         kind="Fleet",
-        title="Fleet",
-        subtitle=_machines(len(fleet.machines)),
+        title=_machines(len(fleet.machines)),
+        subtitle="",
         origin=_origin(fleet),
         badge=_badge(fleet),
         head=(("Judged on", date_said(fleet.now)),),
@@ -88,7 +88,7 @@ def _sentence(fleet: FleetState) -> str:
     steady = fleet.counts.get(STEADY, 0)
     if steady == len(fleet.machines):
         return f"{'The machine is' if steady == 1 else f'All {steady} machines are'} as the baseline shows."
-    return f"No machine is in alarm; {steady} of {_machines(len(fleet.machines))} {'is' if steady == 1 else 'are'} steady."
+    return f"No machine is in alarm; {steady} of {_machines(len(fleet.machines))} steady."
 
 
 def _values(fleet: FleetState) -> Iterator[KeyValue]:

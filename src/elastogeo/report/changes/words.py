@@ -6,7 +6,7 @@ from datetime import UTC, datetime, timedelta
 from math import ceil, floor, isfinite, log10
 
 from elastogeo.changes import ALARM, NO_BASELINE, OVERDUE, STEADY, SUSPECT, WATCH, IndicatorState
-from elastogeo.report.numbers import UNKNOWN, DisplayUnit, display_unit, significant
+from elastogeo.report.numbers import UNKNOWN, DisplayUnit, display_unit, pretty, significant
 
 MARKS = {ALARM: "■", SUSPECT: "◆", WATCH: "▲", OVERDUE: "◷", STEADY: "●", NO_BASELINE: "–"}
 """A shape for each state, so that none is told by its colour alone."""
@@ -85,7 +85,7 @@ def to_place_of(value: float, step: float) -> str:
     if not isfinite(value):
         return UNKNOWN
     if not (isfinite(step) and step > 0):
-        return significant(value)
+        return pretty(significant(value))
     places = max(1 - floor(log10(step)), 0)
     text = f"{value:.{places}f}"
     return text.replace("-", "−") if float(text) else text.removeprefix("-")
