@@ -155,6 +155,27 @@ def test_a_refused_recipient_is_given_up_only_if_the_server_says_so_for_good(cod
     assert refused.value.lasting is lasting
 
 
+@pytest.mark.parametrize("address", ["name@example..com", f"name@{'a' * 64}.com"])
+def test_a_mail_address_of_no_host_is_refused(address: str) -> None:
+    with pytest.raises(InputError, match="is no mail address"):
+        channel("mail").check(address, {})
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ({"PORT": "99999"}, "ELASTOGEO_SMTP_PORT is '99999'; give a number from 1 to 65535"),
+        ({"PORT": "0"}, "ELASTOGEO_SMTP_PORT is '0'; give a number from 1 to 65535"),
+        ({"HOST": "mail..example.com"}, "UnicodeError; give"),
+    ],
+)
+def test_mail_settings_that_no_computer_can_take_are_an_error_of_delivery(more: dict[str, str], said: str) -> None:
+    given = {"ELASTOGEO_SMTP_FROM": "a@example.com", "ELASTOGEO_SMTP_HOST": "localhost", "ELASTOGEO_SMTP_SECURITY": "none"}
+    given |= {f"ELASTOGEO_SMTP_{name}": value for name, value in more.items()}
+    with pytest.raises(DeliveryError, match=said):
+        channel("mail").send(MESSAGE, "name@example.com", given)
+
+
 def test_without_a_server_it_says_what_to_set() -> None:
     with pytest.raises(DeliveryError, match=r"set ELASTOGEO_SMTP_HOST"):
         channel("mail").send(MESSAGE, "a@example.com", {"ELASTOGEO_SMTP_FROM": "e@example.com"})
@@ -278,6 +299,8 @@ def test_a_name_is_looked_up_once_and_all_its_addresses_count(monkeypatch: pytes
         ("https://example.com:99999/", "correct its host or port"),
         ("https://example.com/\r\nX-Y: 1", "is no web address"),
         ("https://exämple.com/", "is no web address"),
+        ("https://hooks..example.com/x", "correct its host or port"),
+        (f"https://{'a' * 64}.example.com/x", "correct its host or port"),
     ],
 )
 def test_what_is_no_webhook_is_refused(address: str, why: str) -> None:

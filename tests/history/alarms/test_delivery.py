@@ -331,6 +331,25 @@ def test_a_channel_that_is_gone_is_no_reason_to_stop(store: Store, box: Box) -> 
     assert sorted(state for state, *_ in messages(store)) == ["given up", "sent"]
 
 
+@pytest.mark.parametrize("kind", ["truncate"])
+def test_a_fault_of_a_channel_is_a_try_that_failed_and_shows_no_text(
+    store: Store, box: Box, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*_: object) -> None:
+        raise UnicodeError("label of s3cret empty or too long")
+
+    monkeypatch.setitem(_CHANNELS, "broken", Channel("broken", lambda *_: None, broken, "anywhere"))
+    add_log(store, "first", by="broken")
+    add_log(store, "second", by="box")
+    open_alarm_of(store, make_series(store))
+    tried = deliver(store, {}).tried
+    assert len(box.sent) == 1
+    assert [one.error for one in tried if one.channel == "broken"] == [
+        "broken: UnicodeError; correct its address or settings"
+    ]
+    assert sorted(state for state, *_ in messages(store)) == ["sent", "waiting"]
+
+
 # digest
 
 

@@ -178,6 +178,35 @@ def test_a_history_that_fails_is_told_and_tried_again(watcher, clock, folder, st
     assert told == [("failed", "one", "disk full"), ("new", "one", "")]
 
 
+@pytest.mark.parametrize("kind", ["truncate"])
+def test_a_date_or_a_name_that_no_computer_can_take_stops_nothing(watcher, clock, folder, tmp_path):
+    write_test(folder / "a", date="0001-01-01T00:00:00+02:00")
+    away = tmp_path / "away" / "742N.csv"
+    named = write_test(folder / "b", seed=1) / "test.toml"
+    named.write_text(named.read_text("utf-8").replace("runs/742N.csv", away.as_posix()), "utf-8")
+    write_test(folder / "c", seed=2)
+    told = seen(watcher(), clock, nothing, nothing)
+    assert {(name, what) for what, name, _ in told} == {("a", "refused"), ("b", "waits"), ("c", "new")}
+    said = {name: words for _, name, words in told}
+    assert "is '0001-01-01T00:00:00+02:00'; write it as 2026-03-01" in said["a"]
+    assert said["b"] == f"for {away.as_posix()}"
+
+
+@pytest.mark.parametrize("kind", ["truncate"])
+def test_a_database_that_fails_for_a_while_is_told_once_and_asked_again(watcher, clock, folder):
+    write_test(folder / "one")
+    answers = iter([StoreError("no answer"), StoreError("no answer"), None, None, None])
+
+    def machines():
+        error = next(answers)
+        if error:
+            raise error
+        return ""
+
+    told = seen(watcher(machines=machines), clock, nothing, nothing, nothing)
+    assert told == [("failed", "bar", "no answer"), ("new", "one", "")]
+
+
 def test_a_fault_of_the_program_does_not_stop_it(watcher, clock, folder, store):
     write_test(folder / "a")
     write_test(folder / "b", seed=1)

@@ -133,6 +133,9 @@ def _sent(claimed: _Claimed, settings: Settings) -> DeliveryError | None:
         return error
     except SelectionError as error:
         return DeliveryError(str(error), lasting=True)
+    except Exception as error:  # noqa: BLE001 - a fault of one channel must not hold the messages of the others
+        # its text is left out: it may quote a secret
+        return DeliveryError(f"{claimed.channel}: {type(error).__name__}; correct its address or settings")
     return None
 
 

@@ -83,12 +83,13 @@ def _read(text: str, where: str) -> Day:
         if len(text) <= len("2026-03-01"):
             return Day(datetime.combine(date.fromisoformat(text), time(12), UTC), whole=True)
         said = datetime.fromisoformat(text)
-    except ValueError:
+        at = said.replace(tzinfo=UTC) if said.tzinfo is None else said.astimezone(UTC)
+    except (ValueError, OverflowError):  # the first and the last day of the calendar are of no year in another zone
         raise InputError(
             f"{where} is {text[:40]!r}; write it as 2026-03-01, or with time and zone as 2026-03-01T14:30+01:00"
         ) from None
     if said.tzinfo is None:
-        return Day(said.replace(tzinfo=UTC))
+        return Day(at)
     minutes = round((said.utcoffset() or timedelta()).total_seconds() / 60)
     hours, rest = divmod(abs(minutes), 60)
-    return Day(said.astimezone(UTC), f"{'-' if minutes < 0 else '+'}{hours:02d}:{rest:02d}")
+    return Day(at, f"{'-' if minutes < 0 else '+'}{hours:02d}:{rest:02d}")

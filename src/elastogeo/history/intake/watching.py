@@ -126,8 +126,12 @@ class Watch(Generic[B]):
         if not self.folder.is_dir():
             yield from self._once(self.folder, FAILED, "the folder is away; it is looked for again")
             return
+        try:
+            machines = self.machines()
+        except StoreError as error:
+            yield from self._once(self.folder, FAILED, str(error))
+            return
         self._told.pop(self.folder, None)
-        machines = self.machines()
         for path in in_order(folders_of_tests(self.folder)):
             state = fingerprint(path)
             if self.notebook.knows(self._key(path), state, machines):
@@ -149,12 +153,12 @@ class Watch(Generic[B]):
 
     def _try(self, path: Path, state: str, machines: str) -> Iterator[Seen[B]]:
         """Bring a test in that has not changed for a while."""
-        lacking = not_there(path)
-        if lacking:
-            yield from self._once(path, WAITS, lacking)
-            return
         seen: Seen[B]
         try:
+            lacking = not_there(path)
+            if lacking:
+                yield from self._once(path, WAITS, lacking)
+                return
             brought = self.bring(path)
         except UnplacedError as error:
             seen = Seen(HELD, path, str(error))
@@ -210,7 +214,7 @@ def not_there(path: Path) -> str:
     except ElastogeoError:
         return ""  # the reader says what is wrong with it
     places = [place if place.exists() else place.with_name(place.name.partition("#")[0]) for place in named]
-    missing = [place.relative_to(file.parent).as_posix() for place in dict.fromkeys(places) if not place.exists()]
+    missing = [_as_named(place, file.parent) for place in dict.fromkeys(places) if not place.exists()]
     if missing:
         return f"for {several(missing)}"
     for place in places:
@@ -220,6 +224,11 @@ def not_there(path: Path) -> str:
         except OSError as error:
             return f"until {place.name} can be opened ({error.strerror})"
     return ""
+
+
+def _as_named(place: Path, folder: Path) -> str:
+    """A file as the test names it: from its folder, or from the root."""
+    return (place.relative_to(folder) if place.is_relative_to(folder) else place).as_posix()
 
 
 def loose_runs(folder: Path, known: Callable[[Path], bool]) -> Iterator[Path]:
@@ -256,6 +265,6 @@ def _files(folder: Path) -> Iterator[Path]:
 def _stat(path: Path) -> str:
     try:
         found = path.stat()
-    except OSError:
+    except (OSError, ValueError):  # what is not there, and a name that no file can have
         return f"{path} -"
     return f"{path} {found.st_size} {found.st_mtime_ns}"

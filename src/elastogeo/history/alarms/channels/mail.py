@@ -28,8 +28,17 @@ _SECURITY = ("starttls", "tls", "none")
 
 def check(address: str, settings: Settings) -> None:  # noqa: ARG001
     """Refuse what is not one plain address: a line break in it would add headers of its own."""
-    if not _ADDRESS.fullmatch(address):
+    if not _is_address(address):
         raise InputError(f"{address!r} is no mail address; give one, as name@example.com, without a display name")
+
+
+def _is_address(text: str) -> bool:
+    """Whether it is one plain address of a host that can be looked up."""
+    try:
+        text.rpartition("@")[2].encode("idna")
+    except UnicodeError:
+        return False
+    return _ADDRESS.fullmatch(text) is not None
 
 
 def send(message: Message, address: str, settings: Settings) -> None:
@@ -46,6 +55,10 @@ def send(message: Message, address: str, settings: Settings) -> None:
         raise DeliveryError(f"{host} refused the user or the password ({error.smtp_code})") from None
     except smtplib.SMTPResponseException as error:
         raise DeliveryError(f"{host} answered {error.smtp_code} {_short(error.smtp_error)}") from None
+    except UnicodeError as error:  # its text would show a password that is not of plain letters
+        raise DeliveryError(
+            f"{type(error).__name__}; give ELASTOGEO_SMTP_HOST, _USER and _PASSWORD in plain letters"
+        ) from None
     except (smtplib.SMTPException, OSError) as error:
         raise DeliveryError(f"{host}: {type(error).__name__}: {_short(str(error))}") from None
 
@@ -53,7 +66,7 @@ def send(message: Message, address: str, settings: Settings) -> None:
 def _letter(message: Message, address: str, settings: Settings) -> EmailMessage:
     sender = settings.get("ELASTOGEO_SMTP_FROM", "")
     for given in (address, sender):
-        if not _ADDRESS.fullmatch(given):
+        if not _is_address(given):
             raise DeliveryError(
                 f"{given!r} is no mail address; correct the recipient, or ELASTOGEO_SMTP_FROM", lasting=given == address
             )
@@ -89,8 +102,8 @@ def _session(host: str, settings: Settings) -> smtplib.SMTP:
             "a password is not sent over a line that is not encrypted; set ELASTOGEO_SMTP_SECURITY to starttls"
         )
     given = settings.get("ELASTOGEO_SMTP_PORT", "465" if security == "tls" else "587")
-    if not given.isdecimal():
-        raise DeliveryError(f"ELASTOGEO_SMTP_PORT is {given!r}; give a number")
+    if not (given.isdecimal() and len(given) <= len("65535") and 0 < int(given) <= 65535):
+        raise DeliveryError(f"ELASTOGEO_SMTP_PORT is {given!r}; give a number from 1 to 65535")
     context = ssl.create_default_context()
     server: smtplib.SMTP
     if security == "tls":

@@ -65,6 +65,7 @@ def _parts(address: str, settings: Settings) -> SplitResult:
     try:
         parts = urlsplit(address)
         port = parts.port
+        (parts.hostname or "").encode("idna")  # as the look-up does, which fails with no error of the network
     except ValueError:
         raise InputError(f"{address!r} is no web address; correct its host or port") from None
     allowed = ("https", "http") if _private_allowed(settings) else ("https",)
