@@ -127,6 +127,8 @@ class AlarmList(Result):
         Of the last week.
     simulated : str
         From what the tests are simulated; empty if any was measured.
+    acted : bool
+        Whether it is what a person just did to one alarm, not all there is.
     """
 
     now: float
@@ -134,3 +136,4 @@ class AlarmList(Result):
     overdue: tuple[OverdueRow, ...] = ()
     failed: tuple[FailedRow, ...] = ()
     simulated: str = ""
+    acted: bool = False

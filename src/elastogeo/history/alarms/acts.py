@@ -106,4 +106,4 @@ def _check_reason(why: str, what: str) -> None:
 
 def _as_list(connection: Connection, kept: Kept) -> AlarmList:
     at = now()
-    return AlarmList(days(at), rows_of(connection, [kept], at), (), (), simulated(connection, kept.series))
+    return AlarmList(days(at), rows_of(connection, [kept], at), (), (), simulated(connection, kept.series), acted=True)

@@ -58,6 +58,10 @@ def alarm_list_view(result: AlarmList) -> View:
 def _answer(result: AlarmList) -> str:
     if result.alarms and all(row.state in CLOSED for row in result.alarms):
         return " ".join(_closed(row) for row in result.alarms)
+    if result.acted:
+        return " ".join(
+            f"Alarm {row.number} of {of_what(row)} is {row.state} by {row.who}; it stays open." for row in result.alarms
+        )
     states = [row.state for row in result.alarms if row.state not in CLOSED]
     parts = [f"{counted(len(states), 'alarm')} {'is' if len(states) < 2 else 'are'} open"]
     beside = [(OPEN, "that nobody has acknowledged"), (ACKNOWLEDGED, "acknowledged"), (HELD, "held back")]
@@ -80,7 +84,7 @@ def _closed(row: AlarmRow) -> str:
 def _tables(result: AlarmList) -> Iterator[Table]:
     if result.alarms:
         yield Table(
-            ("No.", "Of", "State", "Since", "What", "Confirmed", "Who and why"),
+            ("No.", "Of", "State", "Opened", "What", "Confirmed", "Who and why"),
             tuple(_alarm(row) for row in result.alarms),
             words=(1, 2, 3, 4, 5, 6),
             title="Alarms",

@@ -269,6 +269,11 @@ def _after_alarm(verdict: ChangeVerdict) -> str:
     if not is_confirmed(verdict):
         return f"Repeat the test, since nothing has confirmed the change; then {look}, or close the alarm as false."
     known = verdict.alarm
+    if known is not None and known.held_by:
+        return (
+            f"Check instrument {known.held_by} and close its own alarm (`elastogeo history digest` has the number): as repaired "
+            f"once it is right again, as false if it was right. This alarm goes with it."
+        )
     if known is not None and known.acknowledged is None:
         which = "the alarm" if known.number is None else f"alarm {known.number}"
         return f"Acknowledge {which} and {look}; after the repair close it with a new baseline, or close it as false."

@@ -66,7 +66,10 @@ def _indicator_row(verdict: ChangeVerdict, one: IndicatorState) -> tuple[str, ..
 def _note_of_indicators(verdict: ChangeVerdict) -> str:
     if verdict.baseline is None:
         return ""
-    return "The change is that of the mean since it changed, or of the running mean where it did not."
+    return (
+        "The change is that of the mean since it changed, of a line at the last test where it drifts, of the running mean "
+        "where it did not change; it is corrected for temperature where that is known, the value now is not."
+    )
 
 
 def test_table(verdict: ChangeVerdict, one: IndicatorState) -> Table:
