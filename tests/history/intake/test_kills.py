@@ -1,6 +1,7 @@
 """An import that is killed at any instant loses nothing that it acknowledged, leaves nothing half, and is made up for."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -15,13 +16,15 @@ from elastogeo.history.store.schema import analysis, test
 KILLS = 10
 """On each of three databases."""
 
+ROOT = Path(__file__).resolve().parents[3]
 PROGRAM = Path(__file__).with_name("killed_imports.py")
 
 
 def killed(url, store, folder, kills, *more):
     add_machine(store, "Mill 3", who="A. Nobody")
     command = [sys.executable, str(PROGRAM), url, str(folder), str(kills), "1", *more]
-    done = subprocess.run(command, capture_output=True, text=True, cwd=Path(__file__).resolve().parents[3])
+    above = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])}
+    done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=above)
     assert done.stderr == ""
     found = json.loads(done.stdout)
     assert found["wrong"] == []
