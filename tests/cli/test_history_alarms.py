@@ -44,7 +44,7 @@ def test_acknowledge_and_close_want_a_reason(shop, elastogeo):
     assert code == 2
     assert "say why you acknowledge the alarm" in err
     out = elastogeo("history", "acknowledge", 1, "--why", "nut is ordered", "--store", shop)[1]
-    assert "1 acknowledged" in out
+    assert "Alarm 1 of C50 no. 3, XY 200 is acknowledged by A. Miller; it stays open." in out
     assert "A. Miller: nut is ordered" in out
     code, _, err = elastogeo("history", "close", 1, "--why", "nut replaced", "--store", shop)
     assert code == 2
