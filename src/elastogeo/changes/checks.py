@@ -64,7 +64,7 @@ def checks_of(
         _unchanged(found, reference, rule, indicators),
         *_confirmed(found, indicators, series, causes),
         *_tolerated(indicators),
-        _long_enough(reference, rule),
+        _long_enough(reference, rule, series.indicators),
         _steady(series.date[own], departure[own], expected, series.indicators),
         _expected(departure[own], reference, expected, series),
         _temperature(series, own, found, reference),
@@ -124,9 +124,13 @@ def _tolerated(indicators: Sequence[IndicatorState]) -> Iterator[Check]:
     yield Check(TOLERATED, not beyond if known else None, facts)
 
 
-def _long_enough(reference: Reference, rule: Rule) -> Check:
-    tests = int(reference.count.max()) if len(reference.count) else 0
-    return Check(LONG_ENOUGH, tests >= rule.least_baseline, {"tests": tests, "least": rule.least_baseline}, decisive=True)
+def _long_enough(reference: Reference, rule: Rule, names: Sequence[str]) -> Check:
+    """Of every indicator that the baseline determines: those that it determines too seldom are only watched."""
+    tests = int(min(reference.count[reference.count > 0], default=0))
+    few = tuple(name for name, count in zip(names, reference.count, strict=True) if 0 < count < rule.least_baseline)
+    some = np.any(reference.count >= rule.least_baseline)
+    facts = {"tests": tests, "least": rule.least_baseline, "watched": few if some else ()}
+    return Check(LONG_ENOUGH, tests >= rule.least_baseline, facts, decisive=True)
 
 
 def _steady(date: Array, departure: Array, prior: Prior, names: Sequence[str]) -> Check:

@@ -12,6 +12,7 @@ import numpy as np
 from elastogeo.changes.due_dates import OVERDUE
 from elastogeo.changes.instruments import InstrumentMove
 from elastogeo.changes.result import ALARM, NO_BASELINE, STEADY, SUSPECT, WATCH, ChangeVerdict, IndicatorState
+from elastogeo.estimate import coverage_factor
 from elastogeo.result import Part, Result
 
 MACHINE_STATES = (ALARM, SUSPECT, OVERDUE, WATCH, NO_BASELINE, STEADY)
@@ -157,6 +158,25 @@ def machine_state(machine: str, verdicts: Iterable[ChangeVerdict]) -> MachineSta
     )
 
 
+def as_suspected(verdict: ChangeVerdict) -> IndicatorState | None:
+    """The indicator that the waiting test was furthest off in, its change that of this one test; None where none waits.
+
+    The change is against what was expected at the temperature of the test, with 95 % of such a test.
+    """
+    if not verdict.waiting:
+        return None
+    until = [step.test for step in verdict.steps].index(verdict.waiting) + 1
+    over = ((step, name) for step in reversed(verdict.steps[:until]) for name in step.over)
+    step, name = next(((step, name) for step, name in over if verdict[name].state == SUSPECT), (None, ""))
+    if step is None:
+        return None
+    one, k = verdict[name], verdict.series.tests.index(step.test)
+    low, high = one.expected[k]
+    change = float(verdict.series.value[k, verdict.series.indicators.index(name)] - (low + high) / 2)
+    half = float(coverage_factor(np.array([one.degrees_of_freedom]))[0] * (high - low) / 2 / one.limit)
+    return replace(one, change=change, change_interval=(change - half, change + half))
+
+
 def machine_row(verdict: ChangeVerdict, machine: str = "", place: str = "") -> MachineRow:
     """One series of a machine in a row: what the page of a fleet shows of it, and no more."""
     shown = _shown(verdict)
@@ -234,6 +254,9 @@ def _rank(state: str) -> int:
 
 def _shown(verdict: ChangeVerdict) -> IndicatorState | None:
     """The indicator that changed most: of an alarm, of a suspect test, or one that drifts."""
+    seen = as_suspected(verdict)
+    if seen is not None:
+        return seen
     states = [state for state in (ALARM, SUSPECT) if any(one.state == state for one in verdict.indicators)]
     chosen = [one for one in verdict.indicators if (one.state in states[:1]) or (not states and one.drift is not None)]
     return max(chosen, key=_ratio, default=None)

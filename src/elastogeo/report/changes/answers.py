@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from math import isfinite
 
 from elastogeo.changes import (
@@ -13,12 +12,14 @@ from elastogeo.changes import (
     NEVER_TESTED,
     NO_BASELINE,
     OVERDUE,
+    STEADY,
     SUSPECT,
     WATCH,
     ChangeVerdict,
     Drift,
     IndicatorState,
     Rule,
+    as_suspected,
 )
 from elastogeo.report.changes.words import (
     change_interval_said,
@@ -60,6 +61,9 @@ def worst_of(verdict: ChangeVerdict) -> IndicatorState | None:
     """The indicator to look at first: the one furthest off, else the first; none where there is none."""
     if verdict.changed:
         return verdict.changed[0]
+    seen = as_suspected(verdict)
+    if seen is not None:
+        return verdict[seen.name]
     named = [step.first for step in verdict.steps if step.first][-1:]
     by_state = [one for state in (SUSPECT, WATCH) for one in verdict.indicators if one.state == state]
     last = [verdict[name] for name in named if name in verdict]
@@ -81,10 +85,35 @@ def sentence_of_change(verdict: ChangeVerdict) -> str:
         return _watch(verdict, machine)
     if not verdict.steps:
         return f"{machine} has a baseline of {_baseline_tests(verdict)} tests, and no test since that could show a change."
-    judged, number = len(verdict.steps), len(verdict.indicators)
-    every = "its indicator is within its limits" if number == 1 else f"all {number} indicators are within their limits"
+    judged = len(verdict.steps)
     show = "the one test since shows" if judged == 1 else f"{judged} tests since show"
-    return f"{machine} is as its baseline shows it: {show} no change, {every}."
+    return f"{machine} is as its baseline shows it: {show} no change, {_within(verdict)}."
+
+
+def _within(verdict: ChangeVerdict) -> str:
+    """How many indicators are within their limits, and which have none to be within."""
+    number = len(verdict.indicators)
+    judged = sum(one.state == STEADY for one in verdict.indicators)
+    if judged == number:
+        return "its indicator is within its limits" if number == 1 else f"all {number} indicators are within their limits"
+    said = [f"{judged} of {number} indicators {'is within its' if judged == 1 else 'are within their'} limits"]
+    for one in verdict.indicators:
+        tests = _tests_of(verdict, one)
+        if one.state == WATCH:
+            said.append(f"{one.name} is only watched: its baseline has {tests} test{'' if tests == 1 else 's'}")
+        elif one.state != STEADY:
+            said.append(f"{one.name} has no baseline")
+    return "; ".join(said)
+
+
+def _tests_of(verdict: ChangeVerdict, one: IndicatorState) -> int:
+    """Tests of the baseline that determine an indicator, without those set aside."""
+    if verdict.baseline is None:
+        return 0
+    series, own = verdict.series, set(verdict.baseline.tests)
+    value = series.value[:, series.indicators.index(one.name)]
+    rows = zip(series.tests, series.aside, value, strict=True)
+    return sum(test in own and not out and isfinite(shown) for test, out, shown in rows)
 
 
 def points_to(verdict: ChangeVerdict) -> tuple[str, ...]:
@@ -206,12 +235,11 @@ def _compares(one: IndicatorState) -> bool:
 
 
 def _suspect(verdict: ChangeVerdict, machine: str) -> str:
-    worst = worst_of(verdict)
+    seen = as_suspected(verdict)
     at = next((step.date for step in verdict.steps if step.test == verdict.waiting), verdict.since)
     test = f"the test of {date_said(at)}" if date_said(at) else "the last test"
-    if worst is None or not isfinite(worst.now - worst.mean):
+    if seen is None or not isfinite(seen.change):
         return f"{machine} may have changed: {test} is suspect."
-    seen = replace(worst, change=worst.now - worst.mean)
     return f"{machine} may have changed: by {test} it {predicate(seen)}. One test is no alarm."
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from elastogeo.changes import ALARM, NO_BASELINE, SUSPECT, ChangeVerdict, IndicatorState
+from elastogeo.changes import ALARM, NO_BASELINE, SUSPECT, ChangeVerdict, IndicatorState, as_suspected
 from elastogeo.estimate import Estimate
 from elastogeo.report.changes.answers import (
     advice,
@@ -108,8 +108,9 @@ def _values(verdict: ChangeVerdict, one: IndicatorState) -> Iterator[KeyValue]:
     if isfinite(one.mean):
         yield KeyValue("Baseline", value_said(one, one.mean), shown.name, _of_tests(verdict))
     if isfinite(one.change) and verdict.state != NO_BASELINE and verdict.steps:
-        number, _, unit = change_said(one).rpartition(" ")
-        yield KeyValue("Change", number, unit, f"95 %: {change_interval_said(one)}")
+        seen = as_suspected(verdict) or one
+        number, _, unit = change_said(seen).rpartition(" ")
+        yield KeyValue("Change", number, unit, f"95 %: {change_interval_said(seen)}")
     if one.change_point is not None:
         low, high = one.change_point.interval
         yield KeyValue("Since", date_said(one.change_point.date), "", f"95 %: {date_said(low)} to {date_said(high)}")

@@ -65,8 +65,15 @@ def baseline_long_enough(facts: Facts, passed: bool | None) -> str:
     """Whether it says how the tests scatter."""
     if passed:
         return f"The baseline is made of {facts['tests']} tests."
+    tests = f"{facts['tests']} {'test' if facts['tests'] == 1 else 'tests'}"
+    if facts["watched"]:
+        names = listed(facts["watched"])
+        return (
+            f"The baseline has {tests} of {names}: {facts['least']} are needed before a test can be suspect. Until then "
+            f"{names} {'is' if len(facts['watched']) == 1 else 'are'} only watched."
+        )
     return (
-        f"The baseline is made of {facts['tests']} tests: {facts['least']} are needed before a test can be suspect. Until "
+        f"The baseline is made of {tests}: {facts['least']} are needed before a test can be suspect. Until "
         f"then the machine is only watched."
     )
 
