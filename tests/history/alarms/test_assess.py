@@ -282,6 +282,37 @@ def test_closed_as_repaired_needs_a_new_baseline(machine: Machine) -> None:
     assert [state for _, state in steps(machine.store)] == ["open", "closed as repaired"]
 
 
+def test_a_clock_that_was_ahead_at_a_close_ends_no_baseline_that_follows(machine: Machine) -> None:
+    machine.test(loss=20.0)
+    machine.repeat(loss=20.0)
+    right = machine.clock.advance(hours=1)
+    machine.clock.advance(days=365)
+    close(machine.store, 1, True, "A. Miller", "guideway replaced")
+    machine.clock.time = right
+    first = len(machine.tests)
+    for _ in range(6):
+        machine.month()
+        assert machine.test(loss=-5.0).state == NO_BASELINE
+    set_baseline(machine.store, machine.series, machine.tests[first:], machine.clock.time)
+    machine.month()
+    assert machine.test(loss=-5.0).state == STEADY
+
+
+@pytest.mark.parametrize("ahead", [365 * DAY, timedelta(), -365 * DAY])
+def test_a_test_that_comes_after_a_close_counts_whatever_the_clock_said(machine: Machine, ahead: timedelta) -> None:
+    """A retest of the day of an afternoon's close, dated by its day only, lies at noon: before the close, and counts."""
+    machine.test(loss=20.0)
+    machine.repeat(loss=20.0)
+    right = machine.month()
+    machine.clock.time = right + ahead + 4 * HOUR
+    close(machine.store, 1, False, "A. Miller", "coolant on the ball")
+    machine.clock.time = right
+    assert assess(machine.store, machine.series).state == STEADY
+    machine.test(loss=20.0)
+    machine.repeat(loss=20.0)
+    assert [state for _, state in steps(machine.store)] == ["open", "closed as false", "open"]
+
+
 def test_a_test_that_is_set_aside_tells_nobody(machine: Machine) -> None:
     machine.test(loss=20.0)
     with write(machine.store) as connection:

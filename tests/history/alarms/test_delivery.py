@@ -220,6 +220,14 @@ def test_what_was_said_last_of_a_silence_counts(store: Store, box: Box, standing
     assert len(box.sent) == 1
 
 
+def test_the_trail_calls_a_silent_machine_by_its_key(store: Store, standing_clock: Any) -> None:
+    make_series(store, "C50 no. 4")
+    make_series(store)
+    silence_machine(store, "C50 no. 3", standing_clock.time + DAY, "A. Miller", "taken apart")
+    with read(store) as connection:
+        assert connection.scalars(select(trail.c.subject).where(trail.c.what == "silence")).all() == ["machine 2"]
+
+
 def test_a_silence_needs_a_machine_a_reason_and_a_zone(store: Store) -> None:
     make_series(store)
     with pytest.raises(InputError, match=r"no machine 'C51'; there are: C50 no. 3"):
@@ -319,6 +327,15 @@ def test_the_audit_trail_keeps_no_secret_of_a_web_address(store: Store) -> None:
     assert "hooks.example.com/..." in kept
     assert "s3cret" not in kept
     assert shown("name@example.com") == "name@example.com"
+
+
+def test_the_digest_keeps_no_secret_of_a_web_address(store: Store, box: Box) -> None:
+    add_log(store, "https://hooks.example.com/T00/s3cret", by="box")
+    open_alarm_of(store, make_series(store))
+    box.error = DeliveryError("no such hook", lasting=True)
+    deliver(store, {})
+    (failed,) = standing_of(store).failed
+    assert failed.address == "https://hooks.example.com/..."
 
 
 def test_a_channel_that_is_gone_is_no_reason_to_stop(store: Store, box: Box) -> None:

@@ -152,6 +152,12 @@ def test_stray_files_are_told_and_wrong_no_more_than_that(full: Store) -> None:
     assert view_of(checked).supported
 
 
+def test_what_a_watch_notes_is_no_stray_file(full: Store) -> None:
+    (full.files.folder / "watched").mkdir()
+    (full.files.folder / "watched" / "0a1b.jsonl").write_text("{}\n")
+    assert found(full) == []
+
+
 def test_a_size_that_its_row_does_not_say_is_named(full: Store) -> None:
     sha256 = next(iter(full.files.all()))
     tamper(full, f"UPDATE blob SET size = size + 1 WHERE sha256 = '{sha256}'")

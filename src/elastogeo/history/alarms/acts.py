@@ -7,6 +7,7 @@ from sqlalchemy import Connection
 from elastogeo.changes.alarms import ACKNOWLEDGED, FALSE, RELEASED, REPAIRED, AlarmList, AlarmNews
 from elastogeo.errors import InputError
 from elastogeo.history.alarms.assessing import assessed
+from elastogeo.history.alarms.baselines import known_at_close
 from elastogeo.history.alarms.life import Step, is_acknowledged
 from elastogeo.history.alarms.open_ones import rows_of, simulated
 from elastogeo.history.alarms.outbox import post, told, withdraw
@@ -57,7 +58,8 @@ def _closed(connection: Connection, kept: Kept, state: str, who: str, why: str) 
     """Close an alarm and tell those who were told of it."""
     at = now()
     knew = told(connection, kept)
-    kept = take(connection, kept, [Step(state, who=who, why=why)], at)
+    facts = {} if kept.series is None else known_at_close(connection, kept.series)
+    kept = take(connection, kept, [Step(state, facts, who=who, why=why)], at)
     withdraw(connection, kept, "the alarm was closed before it was sent")
     post(connection, kept, kept.keys[-1], _news(connection, kept), at, only=knew)
     _judge_again(connection, kept)

@@ -120,8 +120,8 @@ def _is_news(connection: Connection, key: int, by: int, at: datetime) -> bool:
 
 
 def _cleared(connection: Connection, key: int) -> datetime | None:
-    """When the last alarm of a series was closed."""
-    return max((at for _, at in closed(connection, key)), default=None)
+    """Up to when tests of a series were there when its last alarm was closed."""
+    return max((one.until for one in closed(connection, key)), default=None)
 
 
 def _waiting(connection: Connection, at: datetime) -> dict[int, bool]:

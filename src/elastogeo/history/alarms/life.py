@@ -116,7 +116,7 @@ def steps_of(found: Found, alarm: Sequence[Step] = (), cleared: datetime | None 
     alarm : sequence of Step
         Of the alarm that is open, oldest first; empty if none is.
     cleared : datetime or None
-        When the last alarm of the series was closed: what was measured up to then opens no other.
+        When the last of the tests that the series had when its last alarm was closed was measured: these open no other.
 
     Returns
     -------

@@ -9,6 +9,7 @@ from sqlalchemy import Connection, select
 
 from elastogeo.changes import due_after, due_on
 from elastogeo.changes.alarms import ACKNOWLEDGED, HELD, OPEN, AlarmList, AlarmRow, FailedRow, OverdueRow
+from elastogeo.history.alarms.addresses import shown
 from elastogeo.history.alarms.life import is_acknowledged, recorded
 from elastogeo.history.alarms.outbox import GIVEN_UP, NEWER
 from elastogeo.history.alarms.rows import Kept, alarms, open_alarms
@@ -136,4 +137,6 @@ def _failed(connection: Connection, at: datetime) -> tuple[FailedRow, ...]:
         .where(outbox.c.state == GIVEN_UP, outbox.c.tries > 0, outbox.c.error != NEWER, outbox.c.made_at > at - WEEK)
         .order_by(outbox.c.id)
     )
-    return tuple(FailedRow(row.channel, row.address, row.content["subject"], row.error, days(row.made_at)) for row in rows)
+    return tuple(
+        FailedRow(row.channel, shown(row.address), row.content["subject"], row.error, days(row.made_at)) for row in rows
+    )

@@ -34,4 +34,4 @@ def silence_machine(store: Store, name: str, until: datetime, who: str, why: str
     with write(store) as connection:
         key = machine_key(connection, name)
         connection.execute(insert(silence).values(machine=key, until=until, at=now(), who=who, why=why))
-        audit.record(connection, who, "silence", f"machine {name}", None, until.isoformat(), why)
+        audit.record(connection, who, "silence", f"machine {key}", None, until.isoformat(), why)
