@@ -176,3 +176,49 @@ def test_dates_may_be_shifted_and_nothing_else_changes() -> None:
     assert other.change_point is not None
     assert one.change_point.test == other.change_point.test
     assert other.change_point.date - one.change_point.date == pytest.approx(1000.0)
+
+
+def test_a_drift_that_has_passed_its_limit_is_still_watched() -> None:
+    """No alarm, for 40 % are wanted for one; the tolerance is reached within the year, or was 8 months ago."""
+    rows = np.zeros((BASELINE + 14, 4))
+    rows[BASELINE:, 0] = -1.3 * np.arange(1, 15)
+    series = series_of(rows, 2)
+    for far, passed in ((25.0, False), (8.0, True)):
+        wanted = {"stiffness X": Tolerance(lower=float(MEANS[0] - far * deviations()[0]), relevance=0.4)}
+        found = judge(series, baseline_of(series, BASELINE), tolerances=wanted)["stiffness X"]
+        assert found.state == WATCH
+        assert found.drift is not None
+        assert (found.drift.limit_at is None) is passed
+
+
+def test_a_change_after_a_false_alarm_lies_after_that_was_closed() -> None:
+    rows = np.zeros((BASELINE + 6, 4))
+    rows[BASELINE + 2 :, 0] = -10
+    series = series_of(rows, 4)
+    closed = float(series.date[BASELINE + 1]) + 3
+    point = judge(series, replace(baseline_of(series, BASELINE), cleared=(closed,))).change_point
+    assert point is not None
+    assert (point.test, point.last_before, point.interval[0]) == (f"test {BASELINE + 2}", closed, closed)
+
+
+def test_a_test_that_does_not_determine_an_indicator_is_not_its_first_changed_one() -> None:
+    rows = np.zeros((BASELINE + 8, 4))
+    rows[BASELINE + 4 :, 0] = -12
+    series = series_of(rows, 5)
+    value = series.value.copy()
+    value[BASELINE + 3, 0] = np.nan
+    point = judge(replace(series, value=value), baseline_of(series, BASELINE))["stiffness X"].change_point
+    assert point is not None
+    assert point.test == f"test {BASELINE + 4}"
+    assert point.last_before == series.date[BASELINE + 2], "the last test that shows it unchanged"
+
+
+def test_an_indicator_that_a_test_lacks_does_not_rule_it_out_for_the_others() -> None:
+    rows = np.zeros((BASELINE + 8, 4))
+    rows[BASELINE + 4 :, :2] = -12
+    series = series_of(rows, 5)
+    value = series.value.copy()
+    value[BASELINE + 4, 0] = np.nan
+    point = judge(replace(series, value=value), baseline_of(series, BASELINE)).change_point
+    assert point is not None
+    assert point.test == f"test {BASELINE + 4}"

@@ -84,3 +84,26 @@ def test_both_rates_on_simulated_fleets_of_six() -> None:
         faults[:3] = random.uniform(-20, -4, 3)
         wrong += len(moves(*faults, seed=seed)) > 0
     assert wrong == 0
+
+
+def test_all_series_of_a_machine_that_moved_are_named() -> None:
+    verdicts = [machine(number, -6, 0) for number in range(3)]
+    second = machine(0, -6, 4)
+    other = replace(second.series, name="machine 0: line")
+    found = instrument_moves([*verdicts, judge(other, baseline_of(other, BASELINE), now=21000.0)], {"bar 7": CALIBRATED})
+    assert found[0].machines == ("machine 0", "machine 1", "machine 2")
+    assert sorted(found[0].series) == ["machine 0: circle", "machine 0: line", "machine 1: circle", "machine 2: circle"]
+
+
+def test_tests_warmer_than_the_baseline_make_the_common_change_less_sure() -> None:
+    width = []
+    for warmer in (0.0, 4.0):
+        verdicts = []
+        for number in range(3):
+            series = machine(number, -16, 0).series
+            warm = 20 + np.where(np.arange(len(series)) < BASELINE, 0.0, warmer) + 0.5 * (-1.0) ** np.arange(len(series))
+            series = replace(series, temperature=warm)
+            verdicts.append(judge(series, baseline_of(series, BASELINE), now=21000.0))
+        low, high = instrument_moves(verdicts, {"bar 7": CALIBRATED})[0].intervals[0]
+        width.append(high - low)
+    assert width[1] > 1.1 * width[0]

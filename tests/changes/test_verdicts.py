@@ -13,6 +13,7 @@ from elastogeo.changes import (
     ALARM,
     NO_BASELINE,
     STEADY,
+    STEP,
     SUSPECT,
     WATCH,
     Baseline,
@@ -25,6 +26,9 @@ from elastogeo.changes import (
     start,
     step,
 )
+from elastogeo.changes.drifts import YEAR
+from elastogeo.changes.references import PER_KELVIN
+from elastogeo.changes.replay import replay
 from elastogeo.errors import InputError
 from tests.changes.simulated_series import MEANS, NAMES, baseline_of, deviations, judged, series_of, stepped
 
@@ -314,3 +318,110 @@ def test_a_clock_that_went_back_makes_no_alarm() -> None:
     """A suspect test dated after now: its week has not begun."""
     series = after_baseline(0.0, -8.0)
     assert judge(series, baseline_of(series), now=float(series.date[-1]) - 100).state == SUSPECT
+
+
+def answered_in_part(first: float, *second: float) -> Series:
+    """A suspect stiffness X, a repeat that determines all but it, then repeats of that repeat so far off."""
+    series = after_baseline(first, 0.0, *second)
+    value, date, repeats = series.value.copy(), series.date.copy(), series.repeats.copy()
+    value[11, 0] = np.nan
+    date[11:] = date[10] + 0.1 * np.arange(1, len(second) + 2)
+    repeats[11:] = np.arange(10, 11 + len(second))
+    return replace(series, value=value, date=date, repeats=repeats)
+
+
+def test_a_repeat_that_does_not_determine_what_was_suspect_leaves_it_standing() -> None:
+    series = answered_in_part(-20.0)
+    date = float(series.date[10])
+    waits = judge(series, baseline_of(series), now=date + 5)
+    assert (waits.state, waits.waiting, waits.repeat_by) == (SUSPECT, "test 10", date + 7)
+    assert (waits.steps[0].replaced, waits.steps[0].confirmed) == ("", None)
+    late = judge(series, baseline_of(series), now=date + 8)
+    assert (late.state, late.since) == (ALARM, date + 7)
+    assert late.change_point is not None
+    assert late.change_point.test == "test 10"
+    assert_allclose(late["stiffness X"].change, -20 * deviations()[0])
+
+
+@pytest.mark.parametrize(("second", "state"), [(0.0, STEADY), (-20.0, ALARM)])
+def test_a_further_repeat_takes_the_place_of_both_tests_before_it(second: float, state: str) -> None:
+    series = answered_in_part(-20.0, second)
+    verdict = judge(series, baseline_of(series), now=21000.0)
+    assert verdict.state == state
+    assert [step.replaced for step in verdict.steps] == (["test 12"] * 2 + [""] if state == STEADY else [""] * 3)
+    assert verdict.steps[0].confirmed is (state == ALARM)
+    assert verdict["stiffness X"].now == series.value[12, 0]
+
+
+def test_a_second_test_that_shows_nothing_confirms_nothing() -> None:
+    """Within the week, not as a repeat: its running mean still holds the suspect test."""
+    series = after_baseline(-20.0, -0.1)
+    date = series.date.copy()
+    date[11] = date[10] + 5
+    series = replace(series, date=date)
+    within = judge(series, baseline_of(series), now=float(date[11]))
+    assert abs(within["stiffness X"].running[11]) > within["stiffness X"].limit
+    assert (within.state, within.waiting) == (SUSPECT, "test 10")
+    late = judge(series, baseline_of(series), now=21000.0)
+    assert late.state == ALARM
+    assert [step.confirmed for step in late.steps] == [None, None]
+    shown = after_baseline(-20.0, -6.0)
+    both = judge(replace(shown, date=date), baseline_of(shown), now=float(date[11]))
+    assert both.state == ALARM
+
+
+def test_a_month_later_an_alarm_is_not_confirmed_by_a_test_that_shows_nothing() -> None:
+    series = after_baseline(-20.0, -0.1)
+    baseline = baseline_of(series)
+    found = replay(series, baseline, reference_of(series, baseline), Rule(), 21000.0)
+    assert (found.state, found.confirmed) == (ALARM, False)
+
+
+def test_an_alarm_for_softer_is_not_told_as_stiffer_nor_with_a_drift_of_the_other_sense() -> None:
+    """Found by search: a blow that fades; a line through it ends above the mean."""
+    series = after_baseline(-12.3, -11.5, -7.7, -3.8, 0.0, 3.9, 7.7)
+    found = judge(series, baseline_of(series), now=21000.0)["stiffness X"]
+    assert found.state == ALARM
+    assert found.single[10] < -found.limit
+    assert found.change_interval[0] < 0
+    assert found.drift is None
+
+
+def test_a_step_that_is_sure_has_no_drift() -> None:
+    """Softer by a step, then a little back each month: it is not getting stiffer by so much a year."""
+    series = after_baseline(0.0, 0.0, 0.0, *np.linspace(-14.0, -10.0, 8))
+    found = judge(series, baseline_of(series), now=22000.0)["stiffness X"]
+    assert (found.state, found.shape, found.drift) == (ALARM, STEP, None)
+
+
+def in_warmth(warm: np.ndarray[Any, Any], off: np.ndarray[Any, Any], seed: int) -> Series:
+    """What a kelvin changes drawn as it is expected, the baseline within 1 K, later tests at so many kelvin above it."""
+    random = np.random.default_rng(seed)
+    temperature = np.concatenate([random.standard_normal(10), warm])
+    rows = np.zeros((10 + len(off), 4))
+    rows[10:, 0] = off
+    rows[:, 0] += PER_KELVIN * random.standard_normal() * temperature
+    return series_of(rows, 10000 + seed, temperature=20 + temperature)
+
+
+def test_the_interval_of_a_change_holds_it_also_when_the_tests_are_warmer_than_the_baseline() -> None:
+    """95 % wanted; of 200 draws fewer than 181 have a probability of 0.3 % (three standard deviations)."""
+    held = 0
+    for seed in range(200):
+        series = in_warmth(np.full(6, 5.0), np.full(6, -16.0), seed)
+        low, high = judge(series, baseline_of(series), now=22000.0)["stiffness X"].change_interval
+        held += low <= -16 * deviations()[0] <= high
+    assert held >= 181
+
+
+def test_the_interval_of_a_drift_holds_it_also_when_it_grows_warmer_meanwhile() -> None:
+    """The same for a slope: 1 K a month."""
+    held = drifts = 0
+    for seed in range(100):
+        series = in_warmth(np.arange(12.0), -2.0 * np.arange(1, 13), seed)
+        drift = judge(series, baseline_of(series), now=22000.0)["stiffness X"].drift
+        if drift is not None:
+            drifts += 1
+            held += drift.interval[0] <= -2 * deviations()[0] / 30 * YEAR <= drift.interval[1]
+    assert drifts >= 60
+    assert held >= 0.95 * drifts - 3 * np.sqrt(0.05 * 0.95 * drifts)

@@ -53,6 +53,9 @@ class Since:
         Date of the last test that is not among them: of the baseline, or when an alarm was closed as false.
     departure : array, shape (n, q)
         Less what the reference expects; NaN where a test does not determine an indicator.
+    leverage : array, shape (n, q)
+        Of the temperature: standard deviation of what is expected at it, by the slope alone, in those between tests. It has
+        the sign of warmer, for the slope is one and the same in all tests.
     reference : Reference
     """
 
@@ -60,6 +63,7 @@ class Since:
     date: Array
     before: float
     departure: Array
+    leverage: Array
     reference: Reference
 
     def last_before(self, k: int) -> float:
@@ -74,16 +78,18 @@ def since_baseline(series: Series, baseline: Baseline, reference: Reference, sta
     off = np.where(np.isfinite(warm) & (reference.slope != 0), warm, 0.0)
     own = set(baseline.tests)
     dates = [float(date) for test, date in zip(series.tests, series.date, strict=True) if test in own]
+    cleared = [end for end in baseline.cleared if len(at) and end <= series.date[at[0]]]
     return Since(
         tests=tuple(series.tests[i] for i in at),
         date=series.date[at],
-        before=max(dates, default=baseline.since),
+        before=max([max(dates, default=baseline.since), *cleared]),
         departure=series.value[at] - reference.mean - reference.slope * off,
+        leverage=off / np.sqrt(reference.spread),
         reference=reference,
     )
 
 
-def change_point_of(since: Since, weights: Iterable[Array], latest: int) -> ChangePoint | None:
+def change_point_of(since: Since, weights: Iterable[Array], latest: int, shown: Flags) -> ChangePoint | None:
     """Since when indicators changed, together.
 
     Parameters
@@ -93,6 +99,9 @@ def change_point_of(since: Since, weights: Iterable[Array], latest: int) -> Chan
         Of each of these indicators, `weights_of_step`, or `weights_of_ramp` where it drifts.
     latest : int
         The latest test that may be the first changed one: that of the alarm.
+    shown : array of bool, shape (n,)
+        The tests that determine one of these indicators at least: no other can be the first to show a change, or the last
+        not to.
 
     Returns
     -------
@@ -100,9 +109,11 @@ def change_point_of(since: Since, weights: Iterable[Array], latest: int) -> Chan
         None if no test stands, or there is no indicator.
     """
     every = list(weights)
-    if not len(since.tests) or not every or latest < 0:
+    may = np.flatnonzero(shown[: latest + 1])
+    if not every or not len(may):
         return None
-    weight = np.sum(every, axis=0)[: latest + 1]
+    weight = np.sum(every, axis=0)[may]
+    before = np.append(min(since.before, float(since.date[may[0]])), since.date[may[:-1]])
     share = np.exp(weight - weight.max())
     share /= share.sum()
     order = np.argsort(-share, kind="stable")
@@ -110,11 +121,11 @@ def change_point_of(since: Since, weights: Iterable[Array], latest: int) -> Chan
     kept = np.sort(order[:many])
     best = int(order[0])
     return ChangePoint(
-        test=since.tests[best],
-        date=float(since.date[best]),
-        last_before=since.last_before(best),
-        interval=(since.last_before(int(kept[0])), float(since.date[kept[-1]])),
-        tests=tuple(since.tests[k] for k in kept),
+        test=since.tests[may[best]],
+        date=float(since.date[may[best]]),
+        last_before=float(before[best]),
+        interval=(float(before[kept[0]]), float(since.date[may[kept[-1]]])),
+        tests=tuple(since.tests[k] for k in may[kept]),
     )
 
 

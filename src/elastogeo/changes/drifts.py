@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf, isfinite, nan, sqrt
+from math import hypot, inf, isfinite, nan, sqrt
 
 import numpy as np
 from scipy.special import stdtrit
@@ -75,7 +75,9 @@ class Line:
         Of its middle.
     slope : float [unit/d]
     height_deviation, slope_deviation : float
-        Standard deviations; they are independent.
+        Standard deviations by the scatter of the tests; they are independent.
+    height_leverage, slope_leverage : float
+        Standard deviations by what a kelvin changes, which is one error of both, with their signs.
     factor : float
         Student's t of 95 %.
     first, last : float [d]
@@ -87,6 +89,8 @@ class Line:
     slope: float
     height_deviation: float
     slope_deviation: float
+    height_leverage: float
+    slope_leverage: float
     factor: float
     first: float
     last: float
@@ -95,20 +99,26 @@ class Line:
     @property
     def t(self) -> float:
         """Slope over its standard deviation."""
-        return self.slope / self.slope_deviation
+        return self.slope / self.deviation
+
+    @property
+    def deviation(self) -> float:
+        """Standard deviation of the slope."""
+        return hypot(self.slope_deviation, self.slope_leverage)
 
     def at(self, date: float) -> tuple[float, float]:
         """Height at a date, and its standard deviation."""
         off = date - self.date
-        return self.height + self.slope * off, sqrt(self.height_deviation**2 + (off * self.slope_deviation) ** 2)
+        warm = self.height_leverage + off * self.slope_leverage
+        return self.height + self.slope * off, hypot(self.height_deviation, off * self.slope_deviation, warm)
 
 
-def line_of(date: Array, departure: Array, deviation: float, freedom: float) -> Line | None:
-    """The line through departures, shape (n,); None with fewer than four, or all of one date."""
+def line_of(date: Array, departure: Array, deviation: float, freedom: float, leverage: Array | float = 0.0) -> Line | None:
+    """The line through departures, shape (n,), with `Since.leverage`; None with fewer than four, or all of one date."""
     shown = np.isfinite(departure)
     if np.sum(shown) < FEWEST or not np.ptp(date[shown]) > 0 or not deviation > 0:
         return None
-    t, d = date[shown], departure[shown]
+    t, d, warm = date[shown], departure[shown], np.broadcast_to(leverage, shown.shape)[shown]
     middle = float(t.mean())
     spread = float(np.sum((t - middle) ** 2))
     return Line(
@@ -117,6 +127,8 @@ def line_of(date: Array, departure: Array, deviation: float, freedom: float) -> 
         slope=float((t - middle) @ d) / spread,
         height_deviation=deviation / sqrt(len(t)),
         slope_deviation=deviation / sqrt(spread),
+        height_leverage=deviation * float(warm.mean()),
+        slope_leverage=deviation * float((t - middle) @ warm) / spread,
         factor=float(stdtrit(freedom, (1 + COVERAGE) / 2)),
         first=float(t[0]),
         last=float(t[-1]),
@@ -184,7 +196,7 @@ def drift_of(line: Line, mean: float, mean_deviation: float, relevance: float, l
     at_end = line.at(line.last)[0]
     reached = None if side * (limit - at_end) <= 0 else line.date + (limit - line.height) / line.slope
     interval = (nan, nan) if reached is None else _fieller(line, limit, 0.0 if toleranced else mean_deviation)
-    half = line.factor * line.slope_deviation
+    half = line.factor * line.deviation
     return Drift(
         per_year=line.slope * YEAR,
         interval=((line.slope - half) * YEAR, (line.slope + half) * YEAR),
@@ -202,9 +214,9 @@ def drift_of(line: Line, mean: float, mean_deviation: float, relevance: float, l
 def _fieller(line: Line, limit: float, deviation: float) -> tuple[float, float]:
     """Dates between which the line reaches a limit: those at which it may lie there (Fieller, 1954)."""
     to_go, k = limit - line.height, line.factor
-    a = line.slope**2 - (k * line.slope_deviation) ** 2
-    b = to_go * line.slope
-    c = to_go**2 - k**2 * (line.height_deviation**2 + deviation**2)
+    a = line.slope**2 - (k * line.deviation) ** 2
+    b = to_go * line.slope + k**2 * line.height_leverage * line.slope_leverage
+    c = to_go**2 - k**2 * (line.height_deviation**2 + line.height_leverage**2 + deviation**2)
     root = b**2 - a * c
     if root < 0:
         return -inf, inf

@@ -46,7 +46,7 @@ class InstrumentMove(Part):
     machines : tuple of str
         Those that moved alike, at least three: their alarms are held back under this one.
     series : tuple of str
-        Of each of them, the series that moved.
+        Of these machines, all that moved: one machine may have several.
     indicators : tuple of str
         That moved.
     shifts : tuple of float
@@ -132,12 +132,11 @@ def _move_of(verdicts: Sequence[ChangeVerdict], serial: str, calibrated: float |
     if not found:
         return None
     machines = dict.fromkeys(moved.machine for one in found for moved in one.moved)
-    series = {moved.machine: moved.series for one in found for moved in one.moved}
     return InstrumentMove(
         instrument=serial,
         since=since,
         machines=tuple(machines),
-        series=tuple(series[machine] for machine in machines),
+        series=tuple(dict.fromkeys(moved.series for one in found for moved in one.moved)),
         indicators=tuple(one.indicator for one in found),
         shifts=tuple(one.shift for one in found),
         intervals=tuple((one.shift - 1.96 * one.deviation, one.shift + 1.96 * one.deviation) for one in found),
@@ -171,17 +170,19 @@ def _moved(verdict: ChangeVerdict, serial: str, since: float) -> Iterator[_Moved
         departure = series.value[:, k] - one.expected.mean(axis=1)
         after, before = (np.flatnonzero(rows & np.isfinite(departure)) for rows in (with_it, of_baseline))
         if len(after) and len(before) and one.deviation > 0:
-            yield _of_indicator(verdict, one, departure[after], len(before))
+            yield _of_indicator(verdict, one, departure[after], len(before), one.expected[after])
 
 
-def _of_indicator(verdict: ChangeVerdict, one: IndicatorState, departure: Array, tests: int) -> _Moved:
+def _of_indicator(verdict: ChangeVerdict, one: IndicatorState, departure: Array, tests: int, expected: Array) -> _Moved:
+    width = np.ptp(expected, axis=1) / (2 * one.limit * one.deviation)
+    warm = float(np.sqrt(np.maximum(width**2 - 1 - 1 / tests, 0.0)).mean())  # what the temperature slope adds, at most
     scale = abs(one.mean) if one.kind.relative else 1.0
     return _Moved(
         machine=verdict.series.machine or verdict.series.name,
         series=verdict.series.name,
         indicator=one.name,
         change=float(departure.mean()) / scale,
-        deviation=one.deviation / scale * sqrt(1 / len(departure) + 1 / tests),
+        deviation=one.deviation / scale * sqrt(1 / len(departure) + 1 / tests + warm**2),
         freedom=one.degrees_of_freedom,
         alarming=one.state in (ALARM, SUSPECT),
     )

@@ -226,7 +226,8 @@ def _judge(found: Replay, series: Series, judged: Judged, ratio: Array, at: int,
     if found.state == ALARM or found.alarm.any():
         found.becomes(ALARM, float(series.date[i]))
     elif found.suspect.any():
-        found.asked = i if answers or not before.any() else found.asked
+        whole = answers and not np.any((before != 0) & ~np.isfinite(judged.single[at]))
+        found.asked = i if whole or not before.any() else found.asked
         found.becomes(SUSPECT, float(series.date[i]))
     else:
         found.asked = -1
@@ -239,10 +240,11 @@ def _suspected(found: Replay, series: Series, judged: Judged, at: int, i: int, a
     before, over = found.suspect, judged.over[at]
     here = np.isfinite(judged.single[at])
     confirmed = answers & here & (before != 0) & np.any(judged.near[:, at] == before, axis=0)
-    again = (over != 0) & (over == np.where(before != 0, before, found.over))
+    # by the test itself: the running mean still holds the one before it
+    again = (over != 0) & (judged.near[0, at] == over) & (over == np.where(before != 0, before, found.over))
     sure = confirmed | (again & ((before != 0) | bool(found.alarm.any())))
     if answers:
-        _answer(found, series, i, bool(sure.any()))
+        _answer(found, series, i, bool(sure.any()), not np.any((before != 0) & ~here))
     waiting = np.where(answers & here, 0, before)
     found.suspect = np.where(confirmed, 0, np.where(over != 0, over, waiting)).astype(np.int8)
     found.join(np.where(sure, np.where(over == 0, before, over), 0), i)
@@ -251,13 +253,20 @@ def _suspected(found: Replay, series: Series, judged: Judged, at: int, i: int, a
         found.suspect, found.asked = np.zeros_like(found.suspect), -1
 
 
-def _answer(found: Replay, series: Series, i: int, sure: bool) -> None:
-    """A repeat takes the place of the test that it repeats."""
-    j = found.last
-    found.stands[j] = False
-    step = found.steps[-1]
-    asked = step.state == SUSPECT or bool(step.over)
-    found.steps[-1] = replace(step, confirmed=sure if asked else None, replaced="" if sure else series.tests[i])
+def _answer(found: Replay, series: Series, i: int, sure: bool, whole: bool) -> None:
+    """A repeat takes the place of the test that it repeats, and of what that one repeated in part.
+
+    One that does not determine all that was suspect takes no place: what it cannot show still stands, and waits.
+    """
+    j, at = found.last, len(found.steps) - 1
+    while (whole or sure) and at >= 0 and found.stands[j]:
+        step = found.steps[at]
+        asked = step.state == SUSPECT or bool(step.over)
+        found.stands[j] = not whole
+        found.steps[at] = replace(step, confirmed=sure if asked else None, replaced="" if sure else series.tests[i])
+        if not step.repeats:
+            return
+        j, at = int(series.repeats[j]), at - 1
 
 
 def _step(found: Replay, series: Series, judged: Judged, ratio: Array, at: int, i: int, answers: bool) -> Step:

@@ -11,7 +11,7 @@ import numpy as np
 from elastogeo.changes.causes import Cause, causes_of
 from elastogeo.changes.change_points import ChangePoint, Since, change_point_of, since_baseline, weights_of_step
 from elastogeo.changes.checks import checks_of
-from elastogeo.changes.drifts import DRIFT, STEP, YEAR, Drift, Line, drift_of, line_of, shape_of, weights_of_ramp
+from elastogeo.changes.drifts import DRIFT, YEAR, Drift, Line, drift_of, line_of, shape_of, weights_of_ramp
 from elastogeo.changes.priors import Prior
 from elastogeo.changes.references import Reference, reference_of
 from elastogeo.changes.replay import Replay, replay
@@ -65,7 +65,8 @@ def judge(
     )
     waiting = series.tests[found.asked] if found.state == SUSPECT else ""
     together = [_weights(since, k, one.shape) for k, one in enumerate(indicators) if one.state == ALARM]
-    point = change_point_of(since, together, _latest(found, found.alarm != 0))
+    shown = np.logical_or.reduce(np.isfinite(since.departure[:, found.alarm != 0]), axis=1)
+    point = change_point_of(since, together, _latest(found, found.alarm != 0), shown)
     causes, cannot_tell = ((), ()) if point is None else _causes(series, since, found, point)
     return ChangeVerdict(
         series=series,
@@ -93,7 +94,7 @@ def _without_baseline(series: Series, rule: Rule, now: float, tolerances: Mappin
     reference = Reference(none, none, none, zero, none, zero, none, np.full(q, inf), zero)
     found = Replay.before(n, q, NO_BASELINE, nan, {})
     found.stands = ~series.aside & np.isfinite(series.value).any(axis=1)
-    since = Since((), np.zeros(0), nan, np.zeros((0, q)), reference)
+    since = Since((), np.zeros(0), nan, np.zeros((0, q)), np.zeros((0, q)), reference)
     indicators = tuple(
         _indicator(series, since, rule, found, k, tolerances.get(name, Tolerance()))
         for k, name in enumerate(series.indicators)
@@ -116,12 +117,14 @@ def _causes(
     if series.signatures is None:
         return (), ()
     known = since.reference
-    after = since.departure[since.tests.index(point.test) :]
+    first = since.tests.index(point.test)
+    after = since.departure[first:]
     number = np.sum(np.isfinite(after), axis=0)
+    warm = np.sum(np.where(np.isfinite(after), since.leverage[first:], 0.0), axis=0)
     with np.errstate(invalid="ignore", divide="ignore"):
         change = np.nansum(after, axis=0) / number
         heavy = known.degrees_of_freedom / np.maximum(known.degrees_of_freedom - 2, 1.0)  # of Student's t: its variance
-        deviation = known.deviation * np.sqrt(heavy * (1 / number + 1 / known.count))
+        deviation = known.deviation * np.sqrt(heavy * (1 / number + 1 / known.count + (warm / number) ** 2))
     changed = [name for name, side in zip(series.indicators, found.alarm, strict=True) if side]
     return causes_of(change, deviation, series.signatures, series.indicators, changed)
 
@@ -209,16 +212,18 @@ def _changed(plain: IndicatorState, since: Since, found: Replay, k: int) -> Indi
     """An indicator in alarm: since when, by how much, step or drift, how fast."""
     latest = _latest(found, np.arange(len(found.alarm)) == k)
     shape = shape_of(since, k, latest) if latest >= 0 else ""
-    point = change_point_of(since, [_weights(since, k, shape)], latest)
+    shown = np.isfinite(since.departure[:, k])
+    point = change_point_of(since, [_weights(since, k, shape)], latest, shown)
     if point is None:
         return plain
     first = since.tests.index(point.test)
-    date, departure = since.date[first:], since.departure[first:, k]
-    line = line_of(date, departure, plain.deviation, plain.degrees_of_freedom)
-    drift = _drift(plain, line, since, k) if line is not None and abs(line.t) > line.factor else None
-    number = int(np.sum(np.isfinite(departure)))
-    change, own = float(np.nanmean(departure)), plain.deviation / sqrt(number)
-    if line is not None and drift is not None and shape != STEP:
+    after = first + np.flatnonzero(shown[first:])
+    departure, leverage = since.departure[after, k], since.leverage[after, k]
+    change, own = float(departure.mean()), plain.deviation * hypot(1 / sqrt(len(after)), float(leverage.mean()))
+    line = line_of(since.date[after], departure, plain.deviation, plain.degrees_of_freedom, leverage)
+    drift = None
+    if shape == DRIFT and line is not None and abs(line.t) > line.factor and line.slope * found.alarm[k] > 0:
+        drift = _drift(plain, line, since, k)
         change, own = line.at(line.last)
     half = float(coverage_factor(np.array([plain.degrees_of_freedom]))[0]) * hypot(own, _of_mean(plain, since, k))
     return replace(
@@ -232,11 +237,11 @@ def _weights(since: Since, k: int, shape: str) -> Array:
 
 def _drifting(plain: IndicatorState, since: Since, k: int) -> IndicatorState:
     """An indicator within its limits: watched if it runs into one within a year."""
-    line = line_of(since.date, since.departure[:, k], plain.deviation, plain.degrees_of_freedom)
+    line = line_of(since.date, since.departure[:, k], plain.deviation, plain.degrees_of_freedom, since.leverage[:, k])
     if line is None or abs(line.t) <= plain.limit:
         return plain
     drift = _drift(plain, line, since, k)
-    soon = drift.limit_at is not None and drift.limit_at <= drift.end + YEAR
+    soon = drift.limit_at is None or drift.limit_at <= drift.end + YEAR
     return replace(plain, state=WATCH, drift=drift) if soon else plain
 
 
