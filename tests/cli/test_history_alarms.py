@@ -61,6 +61,14 @@ def test_deliver_sends_what_waits_once(shop, tmp_path, elastogeo):
     assert json.loads(line)["subject"] == "Alarm: C50 no. 3, XY 200"
 
 
+@pytest.mark.parametrize("until", ["9999-12-31", "9999-12-31T23:30-05:00", "0001-01-01T00:00+02:00"])
+def test_a_silence_that_ends_after_the_calendar_is_refused(shop, elastogeo, until):
+    words = ("history", "silence", "C50 no. 3", "--store", shop, "--why", "sold")
+    code, _, err = elastogeo(*words, "--until", until)
+    assert code == 2
+    assert f"--until is '{until}'; give a day, as 2026-12-24" in err
+
+
 def test_a_silence_holds_it(shop, elastogeo):
     words = ("history", "silence", "C50 no. 3", "--store", shop)
     assert elastogeo(*words, "--until", "2999-12-24", "--why", "taken apart")[0] == 0

@@ -414,15 +414,18 @@ class History(Records):
             Without a change after which a file counts as written; between two looks.
         """
         place = Path(folder).resolve()
-        notebook = notebook_of(self.store.files, place)
+        with read(self.store) as connection:
+            notebook = notebook_of(self.store.files, place, audit.identity(connection))
         if again:
             notebook.forget()
 
         def bring(path: Path) -> Added:
             return self.add(path, machine=machine, undated=written(path) if dates_of_files else "")
 
-        watch = Watch(place, bring, notebook, lambda: repr(self.machines()), settle, every)
-        return watch.run(once)
+        def told() -> str:
+            return repr((machine, dates_of_files, self.machines()))
+
+        return Watch(place, bring, notebook, told, settle, every).run(once)
 
 
 def _was_suspect(connection: Connection, series: int, at: datetime) -> bool:

@@ -1,6 +1,6 @@
 """Plans of a history: kept with a date, overdue after its grace, done when a person says so."""
 
-from datetime import timedelta
+from datetime import datetime, timedelta, timezone
 from typing import Any
 
 import pytest
@@ -71,6 +71,11 @@ def test_plans_are_asked_of_one_machine_or_all(store: Store) -> None:
         ({"document": {"schema": "elastogeo.static/1", "tests": []}}, "this is elastogeo.static/1, not a plan"),
         ({"document": {}}, "this is a document without a schema, not a plan"),
         ({"name": " "}, "the plan has no name"),
+        ({"document": DOCUMENT | {"tests": [{}]}}, "test 1 of the plan has no name"),
+        ({"document": DOCUMENT | {"tests": [{"name": "a"}, "b"]}}, "test 2 of the plan has no name"),
+        ({"document": DOCUMENT | {"minutes": "long"}}, "the plan takes 'long' minutes; give a number"),
+        ({"due": datetime(9999, 12, 31, 23, tzinfo=timezone(timedelta(hours=-5)))}, "more than 100 years from now"),
+        ({"grace": 1e7}, "the grace is 1e[+]07 days; give at most 36500"),
         ({"grace": -1.0}, "the grace is -1 days; give zero or more"),
         ({"owner": 7}, "there is no machine 7"),
         ({"name": "spring"}, "Mill 3 has a plan 'spring' already; give this one another name"),

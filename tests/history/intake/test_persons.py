@@ -142,6 +142,7 @@ def test_a_test_made_with_an_instrument_whose_calibration_ran_out_says_so(store,
         ({"due": "2026-01-10"}, "give its date with --calibrated"),
         ({"calibrated": "2026-01-10", "due": "2025-01-10"}, "before it was made"),
         ({"calibrated": "2026-05-10"}, "in the future"),
+        ({"calibrated": "2026-01-10", "due": "9999-12-31"}, "9999-12-31, more than 100 years from now; leave --due out"),
         ({"calibrated": "in May"}, "write it as 2026-03-01"),
     ],
 )

@@ -10,12 +10,13 @@ import pytest
 from sqlalchemy import func, select
 
 from elastogeo.errors import InputError, StoreError
+from elastogeo.history import History
 from elastogeo.history.intake.folders import in_order, paths_of_tests, written
 from elastogeo.history.intake.imports import import_test
 from elastogeo.history.intake.machines import add_machine
 from elastogeo.history.intake.notebook import Notebook
 from elastogeo.history.intake.watching import Watch
-from elastogeo.history.store import read
+from elastogeo.history.store import open_store, read
 from elastogeo.history.store.schema import test
 from tests.history.intake.small_tests import write_test
 
@@ -205,6 +206,40 @@ def test_a_database_that_fails_for_a_while_is_told_once_and_asked_again(watcher,
 
     told = seen(watcher(machines=machines), clock, nothing, nothing, nothing)
     assert told == [("failed", "bar", "no answer"), ("new", "one", "")]
+
+
+@pytest.mark.parametrize("kind", ["truncate"])
+def test_a_test_that_was_held_or_refused_comes_in_as_it_was_told_to(store, url, tmp_path):
+    write_test(tmp_path / "in" / "one")
+    write_test(tmp_path / "in" / "two", date="", seed=1, machine_serial="4711")
+    with History(url, who=WHO) as history:
+        add_machine(store, "Mill 3", who=WHO, serial="4711")
+
+        def told(**more):
+            return [
+                (one.what, one.path.name, one.said) for one in history.watch(tmp_path / "in", once=True, settle=0, **more)
+            ]
+
+        first = told()
+        assert [(what, name) for what, name, _ in first] == [("held", "one"), ("refused", "two")]
+        assert "--machine NAME" in first[0][2]
+        assert "--dates-of-files" in first[1][2]
+        assert "--date " not in f"{first[1][2]} "
+        assert told() == []
+        assert [line[:2] for line in told(machine="Mill 3")] == [("new", "one"), ("refused", "two")]
+        assert [line[:2] for line in told(machine="Mill 3", dates_of_files=True)] == [("new", "two")]
+        assert told() == []
+
+
+@pytest.mark.parametrize("kind", ["truncate"])
+def test_what_came_into_another_history_comes_into_this_one(url, tmp_path):
+    write_test(tmp_path / "in" / "one", machine_serial="4711")
+    for _ in range(2):
+        with open_store(url, create=True, who=WHO) as store:
+            add_machine(store, "Mill 3", who=WHO, serial="4711")
+        with History(url, who=WHO) as history:
+            assert [one.what for one in history.watch(tmp_path / "in", once=True, settle=0)] == ["new"]
+        Path(url).unlink()
 
 
 def test_a_fault_of_the_program_does_not_stop_it(watcher, clock, folder, store):

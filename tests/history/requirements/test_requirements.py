@@ -127,7 +127,12 @@ def test_an_interval_is_set_and_taken_back(store, tests):
     assert tuple(found) == (30.0, 5.0)
     assert rows(store, audit) - before == 1
     set_interval(store, of, None, who="A. Miller")
-    for days, grace, message in ((0.0, 7.0, "0 days; give a positive"), (30.0, -1.0, "grace is -1 days")):
+    for days, grace, message in (
+        (0.0, 7.0, "0 days; give a positive"),
+        (30.0, -1.0, "grace is -1 days"),
+        (1e7, 7.0, r"is 1e\+07 days; give at most 36500"),
+        (30.0, 1e7, r"grace is 1e\+07 days; give at most 36500"),
+    ):
         with pytest.raises(InputError, match=message):
             set_interval(store, of, days, grace, who="A. Miller")
 

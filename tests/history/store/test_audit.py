@@ -122,6 +122,12 @@ def test_rows_that_changed_places_are_named_with_where_they_were(trail: Connecti
     trail.rollback()
 
 
+def test_a_number_that_was_raised_far_is_one_gap(trail: Connection) -> None:
+    far = 5 + 2**40
+    trail.execute(update(rows).where(rows.c.number == 5).values(number=far))
+    assert audit.verify(trail) == (Finding(5, MISSING), Finding(ROWS + 1, MISSING), Finding(far, MOVED, 5))
+
+
 def test_a_row_that_was_added_behind_the_trail_is_named(trail: Connection) -> None:
     last = row(trail, ROWS)
     forged = {**last, "number": ROWS + 1, "who": "nobody", "previous": last["sha256"]}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from datetime import UTC, date, datetime, time
+from datetime import UTC, date, datetime, time, timedelta
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ from elastogeo.history.store import Store, audit, now, write
 from elastogeo.history.store.schema import machine, plan
 
 SCHEMA = "elastogeo.plan/1"
+_LONGEST = 36_500  # days, a hundred years: beyond it a date may be none of the calendar
 
 
 def keep_plan(
@@ -60,12 +61,17 @@ def keep_plan(
     if document.get("schema") != SCHEMA or not isinstance(document.get("tests"), list):
         arrived = document.get("schema") or "a document without a schema"
         raise InputError(f"this is {arrived}, not a plan ({SCHEMA}); print one: elastogeo plan ... --json")
+    _check_tests(document)
     if not name.strip():
         raise InputError("the plan has no name; give it one that the machine's other plans do not have")
     if not (isfinite(grace) and grace >= 0):
         raise InputError(f"the grace is {grace:g} days; give zero or more")
     if due is not None and due.tzinfo is None:
         raise InputError(f"the due date {due} has no time zone; write 2026-05-01T00:00+00:00, or give it one")
+    if grace > _LONGEST:
+        raise InputError(f"the grace is {grace:g} days; give at most {_LONGEST}")
+    if due is not None and abs(due - now()) > timedelta(days=_LONGEST):
+        raise InputError(f"the due date {due:%Y-%m-%d} is more than 100 years from now; correct it")
     with write(store) as connection:
         called = connection.execute(select(machine.c.name).where(machine.c.id == owner)).scalar_one_or_none()
         if called is None:
@@ -77,6 +83,16 @@ def keep_plan(
         new = {"machine": called, "name": name, "due": None if due is None else due.isoformat(), "grace_days": grace}
         audit.record(connection, who, "keep plan", f"plan {key}", new=new)
     return key
+
+
+def _check_tests(document: Mapping[str, Any]) -> None:
+    """Refuse a plan that could be kept and never shown."""
+    for number, one in enumerate(document["tests"], 1):
+        if not (isinstance(one, Mapping) and isinstance(one.get("name"), str)):
+            raise InputError(f"test {number} of the plan has no name; print a whole plan: elastogeo plan ... --json")
+    minutes = document.get("minutes")
+    if minutes is not None and (isinstance(minutes, bool) or not isinstance(minutes, int | float)):
+        raise InputError(f"the plan takes {minutes!r} minutes; give a number, or print it anew: elastogeo plan ... --json")
 
 
 def finish_plan(store: Store, key: int, who: str, why: str = "") -> None:

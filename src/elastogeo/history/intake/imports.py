@@ -173,7 +173,7 @@ def _day(found: TestWithFiles, about: About, date: str, undated: str) -> Day:
     if not (date or undated):
         raise InputError(
             f"{found.path}: does not say when it was measured; write date = 2026-03-01 under [about], or with time and zone "
-            f"2026-03-01T14:30:00+01:00; or give --date"
+            f"2026-03-01T14:30:00+01:00; or give the date where you import it (a watch takes --dates-of-files)"
         )
     return day_of(date or undated, "--date" if date else f"{found.path}: when its files were written", now())
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,8 @@ from elastogeo.history.intake.machines import check_name
 from elastogeo.history.store import Store, audit, now, write
 from elastogeo.history.store.schema import calibration, instrument
 from elastogeo.machine import About
+
+_LONGEST = timedelta(days=36_500)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +68,7 @@ def add_instrument(
     """
     serial = check_name(serial, "an instrument")
     at = day_of(calibrated, "the date of calibration", now()).at if calibrated else None
-    until = day_of(due, "the due date", datetime.max.replace(tzinfo=now().tzinfo, year=9000)).at if due else None
+    until = _due(due) if due else None
     if at is None and (until or certificate):
         raise InputError("a due date and a certificate are of a calibration; give its date with --calibrated")
     if at is not None and until is not None and until <= at:
@@ -76,6 +78,16 @@ def add_instrument(
         if at is not None:
             _add_calibration(connection, found, at, until, certificate, {}, who)
     return found
+
+
+def _due(said: str) -> datetime:
+    """A due date: it may lie in the future, but not beyond what a person can mean."""
+    at = day_of(said, "the due date", datetime.max.replace(tzinfo=UTC) - timedelta(days=1)).at
+    if at > now() + _LONGEST:
+        raise InputError(
+            f"the due date is {said}, more than 100 years from now; leave --due out if the calibration does not run out"
+        )
+    return at
 
 
 def instrument_of(

@@ -10,9 +10,9 @@ from elastogeo.errors import StoreError
 from elastogeo.history.store import Files
 
 
-def notebook_of(files: Files, folder: Path) -> Notebook:
-    """The notes of the watch over a folder, beside the raw files."""
-    name = hashlib.sha256(str(folder).encode()).hexdigest()[:16]
+def notebook_of(files: Files, folder: Path, history: str) -> Notebook:
+    """The notes of the watch over a folder, beside the raw files; `history` tells one history from the next at its place."""
+    name = hashlib.sha256(f"{history}\n{folder}".encode("utf-8", "surrogateescape")).hexdigest()[:16]
     return Notebook(files.folder / "watched" / f"{name}.jsonl")
 
 
@@ -31,7 +31,7 @@ class Notebook:
         self._read()
 
     def knows(self, key: str, state: str, machines: str) -> bool:
-        """Whether a test was dealt with in this state; one that was held, with these machines."""
+        """Whether a test was dealt with in this state; one that did not come in, under the same circumstances."""
         found = self._notes.get(key)
         return found is not None and found[0] == state and found[1] in ("", machines)
 

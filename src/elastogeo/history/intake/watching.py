@@ -84,7 +84,8 @@ class Watch(Generic[B]):
     notebook : Notebook
         What was done before.
     machines : callable
-        `machines()`: a text that changes when machines are added; a test that was held is tried again then.
+        `machines()`: a text that changes when machines are added, or the watch is told other things; a test that was held
+        or refused is tried again then.
     settle, every : float [s]
     sleep, clock : callable
         Of the computer; tests put theirs here.
@@ -175,7 +176,7 @@ class Watch(Generic[B]):
             seen = Seen(NEW if brought.new else KNOWN, path, brought=brought)
         self._since.pop(path, None)
         self._told.pop(path, None)
-        self.notebook.note(self._key(path), state, machines if seen.what == HELD else "", seen.what)
+        self.notebook.note(self._key(path), state, machines if seen.what in (HELD, REFUSED) else "", seen.what)
         yield seen
 
     def _once(self, path: Path, what: str, said: str) -> Iterator[Seen[B]]:

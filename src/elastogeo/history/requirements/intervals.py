@@ -10,6 +10,9 @@ from elastogeo.errors import InputError
 from elastogeo.history.store import Store, audit, write
 from elastogeo.history.store.schema import series
 
+LONGEST = 36_500.0
+"""Days: a hundred years, beyond which a date may be none of the calendar."""
+
 
 def set_interval(store: Store, key: int, days: float | None, grace: float = 7.0, *, who: str, why: str = "") -> None:
     """Set when the next test of a series is due; None: never.
@@ -34,6 +37,9 @@ def set_interval(store: Store, key: int, days: float | None, grace: float = 7.0,
         raise InputError(f"the interval between tests is {days:g} days; give a positive number, or 0 for none")
     if not (isfinite(grace) and grace >= 0):
         raise InputError(f"the grace is {grace:g} days; give zero or more")
+    for what, number in (("interval between tests", days or 0.0), ("grace", grace)):
+        if number > LONGEST:
+            raise InputError(f"the {what} is {number:g} days; give at most {LONGEST:g}")
     with write(store) as connection:
         old = connection.execute(select(series.c.interval_days, series.c.grace_days).where(series.c.id == key)).one_or_none()
         if old is None:

@@ -18,6 +18,11 @@ _SAID = {
     "input/output error": "the server's disk failed; nothing was kept of this step; check that disk, then repeat it",
     "is malformed": "is damaged; restore it from a backup: elastogeo history restore",
     "not a database": "is no file of SQLite, or is damaged; name the right file, or restore it from a backup",
+    "permission denied for schema": (
+        "this user may not make tables in this database; let its owner say: GRANT CREATE ON SCHEMA public TO the user"
+    ),
+    "permission denied": "this user may not do this in the database; let its owner grant it",
+    "read-only transaction": "may only be read here; name the server that is written to, or ask for the right to write",
     "readonly": "may only be read here; ask for the right to write the file and its folder",
     "unable to open": "cannot be opened; ask for the right to read and write the file and its folder",
 }
@@ -50,4 +55,4 @@ def in_words(url: str, writes: bool) -> Iterator[None]:
                 raise StoreError(f"{url}: {words}") from error
         if error.statement is None or error.connection_invalidated:
             raise StoreError(f"{url}: cannot be reached: {said}; check the address, and that the server runs") from error
-        raise
+        raise StoreError(f"{url}: the database says: {said}; nothing was kept of this step") from error

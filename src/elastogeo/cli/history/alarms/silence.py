@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from datetime import datetime, timedelta
+from datetime import UTC, datetime, timedelta
 from typing import Annotated
 
 import typer
@@ -41,10 +41,12 @@ def _end(until: str) -> datetime:
         return datetime.now().astimezone()
     try:
         end = datetime.fromisoformat(until)
-    except ValueError:
+        if len(until) <= len("2026-12-24"):
+            end += timedelta(days=1)
+        end = end if end.tzinfo is not None else end.astimezone()
+        end.astimezone(UTC)  # as it is kept: the last hours of the calendar are of no year there
+    except (ValueError, OverflowError):
         raise eg.InputError(
             f"--until is {until!r}; give a day, as 2026-12-24, a time, as 2026-12-24T12:00, or now"
         ) from None
-    if len(until) <= len("2026-12-24"):
-        end += timedelta(days=1)
-    return end if end.tzinfo is not None else end.astimezone()
+    return end
