@@ -90,10 +90,11 @@ def _warmth(series: Series, reference: Reference) -> Array:
 
 
 def _unchanged(found: Replay, reference: Reference, rule: Rule, indicators: Sequence[IndicatorState]) -> Check:
-    judged = bool(found.steps) and bool(np.any(reference.count >= rule.least_baseline))
+    tests = int(np.sum(found.stands))
+    judged = bool(tests) and bool(np.any(reference.count >= rule.least_baseline))
     passed = None if not judged or found.state == SUSPECT else found.state != ALARM
     changed = tuple(one.name for one in indicators if one.state == ALARM)
-    facts = {"state": found.state, "tests": len(found.steps), "indicators": len(indicators), "changed": changed}
+    facts = {"state": found.state, "tests": tests, "indicators": len(indicators), "changed": changed}
     return Check(UNCHANGED, passed, {**facts, "alpha": rule.alpha})
 
 
@@ -120,7 +121,9 @@ def _tolerated(indicators: Sequence[IndicatorState]) -> Iterator[Check]:
     now = {one.name: one.mean + one.change for one in asked}
     known = [one for one in asked if isfinite(now[one.name])]
     beyond = {one.name: now[one.name] for one in known if not one.lower <= now[one.name] <= one.upper}
-    facts = {"asked": tuple(now), "beyond": beyond, "units": {one.name: one.kind.unit for one in asked}}
+    rest = tuple(one.name for one in asked if one not in known)
+    told = tuple(one.name for one in known)
+    facts = {"asked": told, "unknown": rest, "beyond": beyond, "units": {one.name: one.kind.unit for one in asked}}
     yield Check(TOLERATED, not beyond if known else None, facts)
 
 

@@ -68,8 +68,8 @@ def _answer(result: AlarmNews) -> str:
         return f"The instrument is not the cause: the alarm of {of} counts again ({over_said(row.over)})."
     if row.instrument:
         return (
-            f"{of.capitalize()} seems to have changed: {listed(row.holds)} moved alike with it. Their alarms are held back; "
-            f"check or recalibrate the instrument."
+            f"{of[:1].upper()}{of[1:]} seems to have changed: {listed(row.holds)} moved alike with it. Their alarms are "
+            f"held back; check or recalibrate the instrument."
         )
     return f"{of} has changed: {over_said(row.over)}."
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite
+from math import inf, isfinite
 
 from elastogeo.changes import (
     ALARM,
@@ -83,9 +83,9 @@ def sentence_of_change(verdict: ChangeVerdict) -> str:
         return f"{machine} has {there}: whether it has changed cannot be said."
     if verdict.state == WATCH:
         return _watch(verdict, machine)
-    if not verdict.steps:
-        return f"{machine} has a baseline of {_baseline_tests(verdict)} tests, and no test since that could show a change."
-    judged = len(verdict.steps)
+    judged = _standing(verdict)
+    if not judged:
+        return f"{machine} has a baseline of {_of_baseline(verdict)}, and no test since that could show a change."
     show = "the one test since shows" if judged == 1 else f"{judged} tests since show"
     return f"{machine} is as its baseline shows it: {show} no change, {_within(verdict)}."
 
@@ -104,6 +104,14 @@ def _within(verdict: ChangeVerdict) -> str:
         elif one.state != STEADY:
             said.append(f"{one.name} has no baseline")
     return "; ".join(said)
+
+
+def _standing(verdict: ChangeVerdict) -> int:
+    """Judged tests that still say how the machine is: none before a false alarm was closed, none that a repeat replaced."""
+    cleared = () if verdict.baseline is None else verdict.baseline.cleared
+    last = verdict.steps[-1].date if verdict.steps else verdict.now
+    start = max((at for at in cleared if at <= max(verdict.now, last)), default=-inf)
+    return sum(step.date >= start and not step.replaced for step in verdict.steps)
 
 
 def _tests_of(verdict: ChangeVerdict, one: IndicatorState) -> int:
@@ -193,11 +201,11 @@ def drift_said(one: IndicatorState, drift: Drift) -> str:
     """How fast, and when a limit is reached if it goes on."""
     shown = shown_unit(one.kind.unit)
     speed = f"{'−' if drift.per_year < 0 else '+'}{size_said(abs(drift.per_year) * shown.factor)} {shown.name} a year"
-    if drift.limit_at is None:
+    if not isfinite(drift.limit):
         return f"It drifts by {speed}."
     limit = f"{'tolerance' if drift.limit_is == 'tolerance' else 'least change that matters'}"
     at = f"{limit}, {value_said(one, drift.limit)} {shown.name}"
-    if drift.limit_at <= drift.end:
+    if drift.limit_at is None:
         return f"It drifts by {speed} and has passed its {at}."
     early, late = drift.limit_at_interval
     until = month_said(late) if isfinite(late) else "no end that can be said"
@@ -246,7 +254,7 @@ def _suspect(verdict: ChangeVerdict, machine: str) -> str:
 def _watch(verdict: ChangeVerdict, machine: str) -> str:
     if _is_short(verdict):
         return (
-            f"{machine} is only watched: a baseline of {_baseline_tests(verdict)} tests says too little of how its tests "
+            f"{machine} is only watched: a baseline of {_of_baseline(verdict)} says too little of how its tests "
             f"scatter for an alarm."
         )
     worst = worst_of(verdict)
@@ -260,7 +268,13 @@ def _is_short(verdict: ChangeVerdict) -> bool:
 
 
 def _baseline_tests(verdict: ChangeVerdict) -> int:
-    return 0 if verdict.baseline is None else len(verdict.baseline.tests)
+    """Of the indicator that the baseline determines most often."""
+    return max((_tests_of(verdict, one) for one in verdict.indicators), default=0)
+
+
+def _of_baseline(verdict: ChangeVerdict) -> str:
+    tests = _baseline_tests(verdict)
+    return f"{tests} test{'' if tests == 1 else 's'}"
 
 
 def _beside(verdict: ChangeVerdict) -> Iterator[str]:
@@ -277,7 +291,7 @@ def _beside(verdict: ChangeVerdict) -> Iterator[str]:
     others = [one.name for one in verdict.changed[1:]]
     if others:
         yield f"{title_of(listed(others))} changed too."
-    if verdict.changed and verdict.changed[0].drift is not None:
+    if verdict.changed and verdict.changed[0].drift is not None and verdict.changed[0].shape == DRIFT:
         yield drift_said(verdict.changed[0], verdict.changed[0].drift)
     named = points_to(verdict)
     against = next((cause.against for cause in verdict.causes if named and cause.component == named[0]), ())

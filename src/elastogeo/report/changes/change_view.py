@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from elastogeo.changes import ALARM, NO_BASELINE, SUSPECT, ChangeVerdict, IndicatorState, as_suspected
+from elastogeo.changes import ALARM, DRIFT, NO_BASELINE, SUSPECT, ChangeVerdict, IndicatorState, as_suspected
 from elastogeo.estimate import Estimate
 from elastogeo.report.changes.answers import (
     advice,
@@ -114,11 +114,11 @@ def _values(verdict: ChangeVerdict, one: IndicatorState) -> Iterator[KeyValue]:
     if one.change_point is not None:
         low, high = one.change_point.interval
         yield KeyValue("Since", date_said(one.change_point.date), "", f"95 %: {date_said(low)} to {date_said(high)}")
-    if one.drift is not None:
+    if one.drift is not None and (one.state != ALARM or one.shape == DRIFT):
         yield _drift_value(one)
     elif one.state not in (ALARM, SUSPECT) and resolves_said(one):
         number, _, unit = resolves_said(one).rpartition(" ")
-        yield KeyValue("Seen by one test", number, unit, "from this change on; the running mean sees less")
+        yield KeyValue("Seen by one test", number, unit, "from this change on; the running mean shows smaller ones")
 
 
 def _now(one: IndicatorState) -> str:
@@ -133,7 +133,8 @@ def _now(one: IndicatorState) -> str:
 def _of_tests(verdict: ChangeVerdict) -> str:
     if verdict.baseline is None:
         return ""
-    tests = len(verdict.baseline.tests)
+    own = set(verdict.baseline.tests)
+    tests = sum(test in own and not out for test, out in zip(verdict.series.tests, verdict.series.aside, strict=True))
     return f"{tests} test{'' if tests == 1 else 's'}"
 
 
@@ -142,9 +143,9 @@ def _drift_value(one: IndicatorState) -> KeyValue:
     assert drift is not None
     shown = shown_unit(one.kind.unit)
     half = (drift.interval[1] - drift.interval[0]) / 2
-    at = f"limit reached in {month_said(drift.limit_at)} if it goes on" if drift.limit_at is not None else ""
-    if drift.limit_at is not None and drift.limit_at <= drift.end:
-        at = "limit passed"
+    at = "limit passed" if isfinite(drift.limit) else ""
+    if drift.limit_at is not None:
+        at = f"limit reached in {month_said(drift.limit_at)} if it goes on"
     speed = pretty(value_with_uncertainty(drift.per_year * shown.factor, half * shown.factor))
     return KeyValue("Drift", speed, f"{shown.name}/year", at)
 

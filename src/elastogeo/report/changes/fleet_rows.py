@@ -124,5 +124,5 @@ def move_table(fleet: FleetState) -> Table | None:
         (move.instrument, short_date(move.since), *map(", ".join, (move.indicators, move.machines, move.others)))
         for move in fleet.instruments
     )
-    headings = ("instrument", "calibrated", "indicators", "machines that moved alike", "that did not")
+    headings = ("instrument", "since", "indicators", "machines that moved alike", "that did not")
     return Table(headings, rows, words=(0, 1, 2, 3, 4), title="Instruments") if rows else None

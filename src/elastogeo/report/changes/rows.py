@@ -147,12 +147,15 @@ def _cause_rows(verdict: ChangeVerdict) -> Iterator[tuple[str, ...]]:
 
 
 def resolves_said(one: IndicatorState) -> str:
-    """By how much the next test must be off to be a signal, with its unit: half of what is expected of one test."""
+    """By how much the next test must be off to be a signal, with its unit: half of what is expected of one test.
+
+    It is never less than the least change that matters: a smaller one is no signal.
+    """
     known = np.flatnonzero(np.isfinite(one.expected).all(axis=1))
     if not len(known):
         return ""
     low, high = one.expected[known[-1]]
-    half = (high - low) / 2
+    half = max((high - low) / 2, one.relevance)
     if one.kind.relative and one.mean:
         return f"{size_said(100 * half / abs(one.mean))} %"
     shown = shown_unit(one.kind.unit)

@@ -49,15 +49,16 @@ def change_explained(facts: Facts, passed: bool | None) -> str:
 @says("within tolerance")
 def within_tolerance(facts: Facts, passed: bool | None) -> str:
     """Whether what a person wants holds."""
+    rest = f" No test since the baseline determines {listed(facts['unknown'])}." if facts["unknown"] else ""
     if passed:
-        return f"{title_of(listed(facts['asked']))} {'lies' if len(facts['asked']) == 1 else 'lie'} within tolerance."
+        return f"{title_of(listed(facts['asked']))} {'lies' if len(facts['asked']) == 1 else 'lie'} within tolerance.{rest}"
     if passed is None:
         return "No test since the baseline says where the machine stands in its tolerance."
     said = []
     for name, value in facts["beyond"].items():
         unit = shown_unit(facts["units"][name])
         said.append(f"{name} ({significant(value * unit.factor)} {unit.name})")
-    return f"Out of tolerance: {listed(said)}."
+    return f"Out of tolerance: {listed(said)}.{rest}"
 
 
 @says("baseline long enough")

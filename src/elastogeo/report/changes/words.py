@@ -128,6 +128,8 @@ def predicate(one: IndicatorState) -> str:
 def changed(name: str, kind: str, change: float, size: str) -> str:
     """The same of an indicator of this name and kind, where the size of the change is said already."""
     up, where = change > 0, name.removeprefix(kind).removeprefix(" difference").strip()
+    if kind == "stiffness" and where.startswith("at "):
+        return f"is {size} {'stiffer' if up else 'softer'} {where}"
     if kind == "stiffness" and where:
         return f"is {size} {'stiffer' if up else 'softer'} in {where}"
     if kind == "squareness" and len(where) == 2:
