@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 
 from elastogeo.changes import KeptCampaign, KeptPlans, Recomputed
@@ -42,17 +43,14 @@ class Records:
     ) -> Recomputed:
         """Compute series, by default all, again from their raw records; a new version takes them over, each as a whole.
 
-        Those whose charts changed by it are judged again; nobody is told.
+        Each is judged again as soon as it is done, so that an interruption leaves none unjudged; nobody is told.
 
         Raises
         ------
         InputError
             If there is no such series, or a later version than this one computed it.
         """
-        found = recompute(self.store, series, self.who, progress, jobs)
-        for key in found.changed:
-            assess(self.store, key)
-        return found
+        return recompute(self.store, series, self.who, progress, jobs, judge=partial(assess, self.store))
 
     def campaigns(self, machine: str | None = None) -> tuple[KeptCampaign, ...]:
         """The campaigns of a machine, or of all, in the order in which they were kept."""

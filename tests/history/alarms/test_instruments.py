@@ -9,6 +9,7 @@ import pytest
 from sqlalchemy import select
 
 from elastogeo.changes import ALARM, STEADY
+from elastogeo.history.alarms import instruments
 from elastogeo.history.alarms.acts import close
 from elastogeo.history.alarms.assessing import assess
 from elastogeo.history.alarms.open_ones import standing
@@ -121,6 +122,22 @@ def test_a_fourth_machine_joins_without_a_message(shop: Shop) -> None:
     before = told(shop.store)
     assert shop.test("C50 no. 3", 0.1).alarm.held_by == "LB-1"
     assert told(shop.store) == before
+
+
+def test_the_fleet_is_judged_only_if_an_alarm_would_join(shop: Shop, monkeypatch: pytest.MonkeyPatch) -> None:
+    off(shop)
+    judged: list[int] = []
+
+    def counted(connection: Any, key: int, at: Any) -> Any:
+        judged.append(key)
+        return judge(connection, key, at)
+
+    judge = instruments.judged
+    monkeypatch.setattr(instruments, "judged", counted)
+    assert shop.test("C50 no. 0", 0.1).state == ALARM
+    assert judged == [], "its alarm is held already"
+    shop.test("C50 no. 3", 0.1)
+    assert set(judged) == {shop.series[f"C50 no. {k}"] for k in range(3)}, "the alarm of the fourth joins"
 
 
 def test_two_machines_are_two_machines(shop: Shop) -> None:

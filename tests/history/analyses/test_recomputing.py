@@ -16,6 +16,7 @@ from elastogeo.history.analyses import recomputing as recomputing_module
 from elastogeo.history.analyses.computation import Computed
 from elastogeo.history.analyses.raw import RawFile
 from elastogeo.history.analyses.recomputing import _all_computed, _Job
+from elastogeo.history.records import Records
 from elastogeo.history.series_of import series_of
 from elastogeo.history.store import Files, Store, audit, read, schema
 from elastogeo.version import VERSION
@@ -150,6 +151,39 @@ def test_a_new_version_switches_the_whole_series(store: Store, stand_in: StandIn
             "A. Miller", "recompute", {"software": OLD}, {"software": NEW},
         )  # fmt: skip
         assert audit.verify(connection) == ()
+
+
+def test_an_interruption_leaves_no_series_unjudged(store: Store, stand_in: StandIn, monkeypatch: pytest.MonkeyPatch) -> None:
+    use_version(monkeypatch, OLD)
+    first, second = keep_three(store, OLD), keep_series(store, name="the other", software=OLD)
+    analyse(store, keep_test(store, second, {"test.toml": b"7"}))
+    use_version(monkeypatch, NEW)
+    stand_in.factor = 2.0
+    judged: list[int] = []
+
+    def judge(key: int) -> None:
+        if interrupted[:1] == [key]:
+            raise KeyboardInterrupt
+        judged.append(key)
+
+    interrupted = [second]
+    with pytest.raises(KeyboardInterrupt):
+        recompute(store, judge=judge)
+    assert judged == [first], "as soon as it was switched"
+    assert software_of(store, second) == NEW
+    interrupted.clear()
+    recompute(store, judge=judge)
+    assert judged == [first, first, second], "the next attempt judges what the one before left"
+
+
+def test_a_history_judges_what_it_recomputed(store: Store, stand_in: StandIn) -> None:
+    """Also a series that counts with this version already, and has no state: an attempt was interrupted after its switch."""
+    series, records = keep_three(store), Records()
+    records.store, records.who = store, "A. Miller"
+    records.recompute()
+    assert len(stand_in.seen) == 6, "once each to keep, once each to compare"
+    with read(store) as connection:
+        assert connection.scalars(select(schema.series_state.c.series)).all() == [series]
 
 
 def test_until_the_last_test_is_done_the_old_version_counts(

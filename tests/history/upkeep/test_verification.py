@@ -7,17 +7,22 @@ import json
 import sys
 import zlib
 from collections.abc import Callable
+from math import inf
 
 import pytest
-from sqlalchemy import text
+from sqlalchemy import text, update
 
-from elastogeo.changes import StoreFault, Verified
+from elastogeo.changes import KINDS, Indicator, StoreFault, Verified
 from elastogeo.cli import main
+from elastogeo.history.analyses.analysing import keep
+from elastogeo.history.analyses.computation import Computed
 from elastogeo.history.store import Store, audit, write
 from elastogeo.history.store.frozen import freeze, thaw
+from elastogeo.history.store.schema import analysis, campaign
 from elastogeo.history.upkeep import verify
 from elastogeo.history.upkeep.record_checks import _is_whole
 from elastogeo.report import view_of
+from tests.history.analyses.kept import keep_series, keep_test
 from tests.history.upkeep.stores import RAW
 
 
@@ -124,6 +129,46 @@ def test_what_a_test_and_an_analysis_were_when_they_came_in_is_held_against_them
     with write(full) as connection:
         audit.record(connection, "me", "import", "test 77", new={"sha256": "x"})
     assert ("records agree", "test 77", "missing") in found(full)
+
+
+def test_what_the_charts_read_is_sealed(store: Store) -> None:
+    """One bit of an indicator, or a whole other set of signatures, shows."""
+    key = keep_test(store, keep_series(store), {"test.toml": b"x"})
+    kinds = KINDS["stiffness"], KINDS["squareness"]
+    indicators = (Indicator("stiffness X", kinds[0], 50_000.0, inf), Indicator("squareness XY", kinds[1], -0.0, 1e-6))
+    keep(store, key, Computed({}, "i", {"values": [1.5]}, True, indicators, {"moved": [1.0]}, None), "A. Miller")
+    files = hashlib.sha256(f"{hashlib.sha256(b'x').hexdigest()}  test.toml\n".encode()).hexdigest()
+    tamper(store, f"UPDATE test SET sha256 = '{files}'")  # that of an import
+    assert found(store) == []
+    sane = "UPDATE indicator SET value = 50000.0 WHERE name = 'stiffness X'"
+    tamper(store, "UPDATE indicator SET value = 50000.00000000001 WHERE name = 'stiffness X'")
+    assert [fault.detail for fault in verify(store).faults] == ["indicators_sha256"]
+    tamper(store, sane, "UPDATE indicator SET standard_uncertainty = 2e-6 WHERE name = 'squareness XY'")
+    assert [fault.detail for fault in verify(store).faults] == ["indicators_sha256"]
+    tamper(store, "UPDATE indicator SET standard_uncertainty = 1e-6 WHERE name = 'squareness XY'")
+    assert found(store) == []
+    with write(store) as connection:
+        thaw(connection)
+        connection.execute(update(analysis).values(signatures={"moved": [2.0]}))
+        freeze(connection)
+    assert [fault.detail for fault in verify(store).faults] == ["signatures_sha256"]
+
+
+def test_a_campaign_has_the_document_that_its_hash_says(full: Store) -> None:
+    document = {"values": [1.5]}
+    seal = hashlib.sha256(b'{"values":[1.5]}').hexdigest()
+    with write(full) as connection:
+        connection.execute(update(campaign).values(content={"document": document, "document_sha256": seal}))
+        audit.record(connection, "me", "keep campaign", "campaign 1", new={"document_sha256": "that of an older version"})
+        audit.record(connection, "me", "recompute", "campaign 1", new={"document_sha256": seal})
+    assert found(full) == []
+    with write(full) as connection:
+        connection.execute(update(campaign).values(content={"document": {"values": [2.5]}, "document_sha256": seal}))
+    assert found(full) == [("records agree", "campaign 1", "changed")]
+    other = hashlib.sha256(b'{"values":[2.5]}').hexdigest()
+    with write(full) as connection:
+        connection.execute(update(campaign).values(content={"document": {"values": [2.5]}, "document_sha256": other}))
+    assert found(full) == [("records agree", "campaign 1", "changed")], "another hash with it is not what the trail says"
 
 
 @pytest.mark.parametrize("kind", ["truncate", "wal"])

@@ -12,7 +12,7 @@ from elastogeo.history.alarms.judging import judged
 from elastogeo.history.alarms.life import Step
 from elastogeo.history.alarms.open_ones import rows_of, simulated
 from elastogeo.history.alarms.outbox import post, withdraw
-from elastogeo.history.alarms.rows import Kept, hold, open_alarm, open_one, take
+from elastogeo.history.alarms.rows import Kept, alarms, hold, open_alarm, open_one, take
 from elastogeo.history.alarms.states import note_held
 from elastogeo.history.series_of import days
 from elastogeo.history.store.schema import alarm, alarm_step, calibration, event, instrument, series, series_state, test
@@ -22,7 +22,11 @@ LEAST_MACHINES = 3
 
 
 def assess_instrument(connection: Connection, key: int, verdict: ChangeVerdict, live: bool, at: datetime) -> bool:
-    """Look whether the change of a series is one of the instrument of its last test, and act on it; whether it is.
+    """Look whether the change of a series is one of the instrument of its last test, and act on it; whether it did.
+
+    All series of the instrument are judged for it, in the transaction of the caller: only if three machines are in alarm or
+    suspect with it, and its alarm is not open yet or one of theirs would join it. While three machines are in alarm with it
+    for reasons of their own, each further test of theirs that is in alarm or suspect still judges all of them.
 
     Parameters
     ----------
@@ -43,6 +47,8 @@ def assess_instrument(connection: Connection, key: int, verdict: ChangeVerdict, 
         return False
     since = _since(connection, own)
     if len(_moving(connection, own, since, key)) < LEAST_MACHINES:
+        return False
+    if open_alarm(connection, instrument=own) is not None and not _would_join(connection, own, since):
         return False
     verdicts = {other: judged(connection, other, at) for other in _tested(connection, own, since) if other != key}
     verdicts[key] = verdict
@@ -76,6 +82,13 @@ def _act(connection: Connection, own: int, move: InstrumentMove, keys: list[int]
 def _is_of(connection: Connection, held: Kept, own: int) -> bool:
     """Whether the test that opened an alarm was made with this instrument."""
     return connection.scalar(select(test.c.instrument).where(test.c.id == held.steps[0].test)) == own
+
+
+def _would_join(connection: Connection, own: int, since: datetime | None) -> bool:
+    """Whether a series with tests by this instrument has an open alarm by such a test that nothing holds back."""
+    closed = select(alarm_step.c.alarm).where(alarm_step.c.state.in_(CLOSED))
+    waiting = alarms(connection, alarm.c.series.in_(_tested(connection, own, since)), alarm.c.id.not_in(closed))
+    return any(not one.is_held and _is_of(connection, one, own) for one in waiting)
 
 
 def _last_instrument(verdict: ChangeVerdict) -> str:

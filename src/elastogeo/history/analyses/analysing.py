@@ -6,6 +6,7 @@ from sqlalchemy import Connection, insert, select
 
 from elastogeo.history.analyses.computation import Computed, computed
 from elastogeo.history.analyses.raw import raw_files
+from elastogeo.history.seals import seal_of, seal_of_indicators
 from elastogeo.history.store import Store, audit, now, read, write
 from elastogeo.history.store.schema import analysis, indicator, series
 from elastogeo.version import VERSION
@@ -105,5 +106,9 @@ def _written(connection: Connection, test: int, found: Computed, who: str) -> in
     if told:
         connection.execute(insert(indicator), told)
     facts = {name: row[name] for name in ("software", "inputs_sha256", "document_sha256", "error", "supported")}
+    facts["signatures_sha256"] = None if found.signatures is None else seal_of(found.signatures)
+    facts["indicators_sha256"] = seal_of_indicators(
+        (one["name"], one["kind"], one["value"], one["standard_uncertainty"]) for one in told
+    )
     audit.record(connection, who, "analyse", f"test {test}", new={"analysis": key, **facts})
     return key

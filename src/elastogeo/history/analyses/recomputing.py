@@ -43,7 +43,12 @@ class _Job:
 
 
 def recompute(
-    store: Store, keys: Iterable[int] | None = None, who: str = PROGRAM, progress: Progress | None = None, jobs: int = 1
+    store: Store,
+    keys: Iterable[int] | None = None,
+    who: str = PROGRAM,
+    progress: Progress | None = None,
+    jobs: int = 1,
+    judge: Callable[[int], object] = lambda _: None,
 ) -> Recomputed:
     """Compute series again by this version of the software, and switch to it those that another version made.
 
@@ -58,6 +63,9 @@ def recompute(
         Is told what goes on, and how long it will take.
     jobs : int
         Processes that compute at once.
+    judge : callable, optional
+        Is called with each series as soon as that counts with this version, changed or not: what an attempt that was
+        interrupted between the two left unjudged, the next one judges.
 
     Returns
     -------
@@ -85,6 +93,7 @@ def recompute(
             switched[name] = (before, VERSION)
         if before != VERSION or any(one.mended or not one.before for one in found):
             changed.append(key)
+        judge(key)
         tests += found
     return Recomputed(store.url, tuple(tests), switched, tuple(changed), (recomputed_same(tests),))
 

@@ -9,14 +9,16 @@ from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
 
-from sqlalchemy import Connection, LargeBinary, Text, select, type_coerce
+from sqlalchemy import Connection, LargeBinary, Text, and_, or_, select, type_coerce
 
 from elastogeo.changes import CHANGED, DOCUMENTS_WHOLE, MISSING, RECORDS_AGREE, StoreFault
+from elastogeo.history.seals import IndicatorRow, seal_of, seal_of_indicators
 from elastogeo.history.store.columns import Document, Packed, canonical
-from elastogeo.history.store.schema import analysis, audit, metadata, test, test_file
+from elastogeo.history.store.schema import analysis, audit, campaign, indicator, metadata, test, test_file
 from elastogeo.history.upkeep.raw_copies import Step
 
 _AT_ONCE = {"yield_per": 200}
+_RECOMPUTED = and_(audit.c.what == "recompute", audit.c.subject.startswith("campaign "))
 _IMPORTED = ("sha256", "name", "series", "repeats")
 _ANALYSED = ("software", "inputs_sha256", "document_sha256", "error", "supported")
 
@@ -63,12 +65,53 @@ def contradicted(connection: Connection, step: Step) -> Iterator[StoreFault]:
         tests[row.id] = {**{name: row._mapping[name] for name in _IMPORTED}, "at": row.at.isoformat()}
         if hashlib.sha256("".join(sorted(lines[row.id])).encode()).hexdigest() != row.sha256:
             yield StoreFault(RECORDS_AGREE, f"test {row.id}", CHANGED, "its files are not those that were imported")
-    analyses = {row.id: row._asdict() for row in connection.execute(_analyses())}
+    analyses, campaigns = _sealed(connection), dict(connection.execute(select(campaign.c.id, campaign.c.content)).all())
+    last: dict[int, dict[str, Any]] = {}
     for what, subject, new in connection.execute(_told(), execution_options=_AT_ONCE):
         if what == "import":
             yield from _against(tests, _number(subject), subject, new)
-        else:
+        elif what == "analyse":
             yield from _against(analyses, new.get("analysis"), f"analysis {new.get('analysis')}", new)
+        elif subject.startswith("campaign "):  # one that was recomputed is what was said last
+            last[int(subject.split()[1])] = new
+    yield from _campaigns(campaigns, last)
+
+
+def _campaigns(kept: dict[int, dict[str, Any]], told: dict[int, dict[str, Any]]) -> Iterator[StoreFault]:
+    """Campaigns whose document has not its hash, or that are not what the trail says."""
+    for key, content in kept.items():
+        document, seal = content.get("document"), content.get("document_sha256")
+        if (None if document is None else seal_of(document)) != seal:
+            yield StoreFault(RECORDS_AGREE, f"campaign {key}", CHANGED, "document")
+    for key, new in told.items():
+        yield from _against(kept, key, f"campaign {key}", new)
+
+
+def _sealed(connection: Connection) -> dict[int, dict[str, Any]]:
+    """Analyses with the seals of their indicators and signatures."""
+    indicators: dict[int, list[IndicatorRow]] = defaultdict(list)
+    told = select(
+        indicator.c.analysis, indicator.c.name, indicator.c.kind, indicator.c.value, indicator.c.standard_uncertainty
+    )
+    for of, *one in connection.execute(told, execution_options=_AT_ONCE):
+        indicators[of].append((one[0], one[1], one[2], one[3]))
+    found = {
+        row.id: {**row._asdict(), "signatures_sha256": None, "indicators_sha256": seal_of_indicators(indicators[row.id])}
+        for row in connection.execute(_analyses())
+    }
+    raw = type_coerce(analysis.c.signatures, LargeBinary)
+    moved = select(analysis.c.id, raw).where(analysis.c.signatures.is_not(None))
+    for key, packed in connection.execute(moved, execution_options=_AT_ONCE):
+        found[key]["signatures_sha256"] = _seal_of_packed(packed)
+    return found
+
+
+def _seal_of_packed(packed: bytes) -> str:
+    """Of the text in it; one that cannot be unpacked has none, and `spoiled_documents` names it too."""
+    try:
+        return hashlib.sha256(zlib.decompress(packed)).hexdigest()
+    except zlib.error:
+        return ""
 
 
 def _analyses() -> Any:
@@ -76,8 +119,10 @@ def _analyses() -> Any:
 
 
 def _told() -> Any:
-    return select(audit.c.what, audit.c.subject, audit.c.new).where(
-        audit.c.what.in_(("import", "analyse")), audit.c.new.is_not(None)
+    return (
+        select(audit.c.what, audit.c.subject, audit.c.new)
+        .where(or_(audit.c.what.in_(("import", "analyse", "keep campaign")), _RECOMPUTED), audit.c.new.is_not(None))
+        .order_by(audit.c.number)
     )
 
 
