@@ -8,7 +8,7 @@ from typing import Any
 
 from elastogeo.history.store.columns import canonical
 
-IndicatorRow = tuple[str, str, float, float | None]
+IndicatorRow = tuple[Any, Any, Any, Any]
 """Name, kind, value, standard uncertainty, as the table has them."""
 
 
