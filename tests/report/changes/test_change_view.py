@@ -15,7 +15,8 @@ from elastogeo.report import html_page, view_of
 from elastogeo.report.changes.answers import drift_said
 from elastogeo.report.changes.dates import date_ticks
 from elastogeo.report.changes.events import letter
-from elastogeo.report.changes.words import change_said, changed, date_said, days_said, iso_date, to_place_of
+from elastogeo.report.changes.words import change_said, changed, to_place_of
+from elastogeo.report.days import date_said, days_said, iso_date
 from elastogeo.report.drawing.style import house_style
 from elastogeo.report.drawing.svg import drawn
 from tests.report.changes.cases import CASES, DAY_ONE, collision, guideway, healthy, many, nothing, suspect, two_tests

@@ -16,9 +16,6 @@ from elastogeo.history.store.schema import event
 
 KINDS = ("repair", "parameter edit", "move", "crash", "calibration", "note")
 
-RESTARTING = ("repair", "parameter edit", "move", "crash")
-"""After these a machine may be another: a baseline from before may hold no more."""
-
 
 @dataclass(frozen=True, slots=True)
 class Happened:

@@ -12,7 +12,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from elastogeo.changes.alarms import ACKNOWLEDGED, CLOSED, HELD, OPEN, AlarmList, AlarmRow
-from elastogeo.report.alarms.words import counted, date_said, entry, iso, of_what, over_said, simulated_said
+from elastogeo.report.alarms.words import counted, entry, of_what, over_said
+from elastogeo.report.days import date_said, iso_date, simulated_said
 from elastogeo.report.document import document
 from elastogeo.report.numbers import significant
 from elastogeo.report.view import Section, Table, View, views
@@ -26,14 +27,20 @@ def alarm_list_view(result: AlarmList) -> View:
     tables = tuple(_tables(result))
     rows = [entry(row) for row in result.alarms]
     found = {
-        "now": iso(result.now),
+        "now": iso_date(result.now),
         "alarms": rows,
         "overdue": [
-            {"machine": row.machine, "series": row.series, "due": iso(row.due), "overdue_days": row.overdue}
+            {"machine": row.machine, "series": row.series, "due": iso_date(row.due), "overdue_days": row.overdue}
             for row in result.overdue
         ],
         "failed": [
-            {"channel": row.channel, "address": row.address, "subject": row.subject, "error": row.error, "at": iso(row.at)}
+            {
+                "channel": row.channel,
+                "address": row.address,
+                "subject": row.subject,
+                "error": row.error,
+                "at": iso_date(row.at),
+            }
             for row in result.failed
         ],
         "simulated": result.simulated or None,

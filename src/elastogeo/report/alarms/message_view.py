@@ -10,7 +10,8 @@ judged : series judged anew because the wait for a repeat was over
 from __future__ import annotations
 
 from elastogeo.changes.alarms import Delivered, Delivery, Recipients
-from elastogeo.report.alarms.words import counted, date_said, iso, moment_said
+from elastogeo.report.alarms.words import counted
+from elastogeo.report.days import date_said, iso_date, moment_said
 from elastogeo.report.document import document
 from elastogeo.report.view import Section, Table, View, views
 
@@ -67,12 +68,12 @@ def delivery_view(result: Delivery) -> View:
             "address": one.address,
             "subject": one.subject,
             "error": one.error or None,
-            "again_at": iso(one.again_at),
+            "again_at": iso_date(one.again_at),
         }
         for one in result.tried
     ]
     found = {
-        "now": iso(result.now),
+        "now": iso_date(result.now),
         "tried": entries,
         "waiting": result.waiting,
         "silenced": result.silenced,

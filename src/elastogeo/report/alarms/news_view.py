@@ -11,7 +11,8 @@ simulated : from what the tests are simulated, or null
 from __future__ import annotations
 
 from elastogeo.changes.alarms import FALSE, OPEN, RELEASED, REPAIRED, WORSE, AlarmNews
-from elastogeo.report.alarms.words import date_said, entry, of_what, over_said, simulated_said
+from elastogeo.report.alarms.words import entry, of_what, over_said
+from elastogeo.report.days import date_said, simulated_said
 from elastogeo.report.document import document
 from elastogeo.report.text import listed
 from elastogeo.report.view import View, view_of, views

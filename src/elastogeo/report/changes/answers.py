@@ -23,16 +23,14 @@ from elastogeo.changes import (
 )
 from elastogeo.report.changes.words import (
     change_interval_said,
-    date_said,
-    days_said,
     least_said,
-    month_said,
     predicate,
     shown_unit,
     size_said,
     title_of,
     value_said,
 )
+from elastogeo.report.days import date_said, days_said, month_said
 from elastogeo.report.text import listed
 
 _LIKELY = 1 / 3

@@ -20,19 +20,8 @@ from elastogeo.report.changes.answers import (
 from elastogeo.report.changes.document import change_json
 from elastogeo.report.changes.points import test_said
 from elastogeo.report.changes.rows import cause_table, event_table, indicator_table, resolves_said, test_table
-from elastogeo.report.changes.words import (
-    MARKS,
-    TONES,
-    change_interval_said,
-    change_said,
-    date_said,
-    month_said,
-    short_date,
-    shown_unit,
-    simulated_said,
-    title_of,
-    value_said,
-)
+from elastogeo.report.changes.words import MARKS, TONES, change_interval_said, change_said, shown_unit, title_of, value_said
+from elastogeo.report.days import date_said, month_said, short_date, simulated_said
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.numbers import pretty, said_estimate, value_with_uncertainty
 from elastogeo.report.view import Badge, KeyValue, Picture, Section, View, said, views

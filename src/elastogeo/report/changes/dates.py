@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from datetime import UTC, datetime
 
-from elastogeo.report.changes.words import moment
+from elastogeo.report.days import moment
 
 _MOST = 6
 _MONTHS = (1, 2, 3, 6, 12, 24, 60, 120)

@@ -23,7 +23,7 @@ from elastogeo.changes import ChangeVerdict, Drift, Event, IndicatorState
 from elastogeo.report.changes.answers import machine_of, next_action, points_to, sentence_of_change, series_said, worst_of
 from elastogeo.report.changes.events import lettered
 from elastogeo.report.changes.points import points_of
-from elastogeo.report.changes.words import iso_date
+from elastogeo.report.days import iso_date
 from elastogeo.report.document import document, verdict_entries
 
 _SPARK = 24

@@ -18,7 +18,8 @@ from elastogeo.changes import ALARM, SUSPECT, ChangeVerdict, Event, IndicatorSta
 from elastogeo.report.changes.dates import date_ticks
 from elastogeo.report.changes.events import lettered
 from elastogeo.report.changes.points import ASIDE, BASELINE, UNJUDGED, Point, points_of
-from elastogeo.report.changes.words import change_said, marked, short_date, shown_unit, title_of, value_said
+from elastogeo.report.changes.words import change_said, marked, shown_unit, title_of, value_said
+from elastogeo.report.days import short_date
 from elastogeo.report.drawing.style import BLUE, GREY, INK, ORANGE, READABLE, SMALL, multiples
 
 _HEIGHT = 4.1

@@ -15,7 +15,7 @@ from typing import Any
 
 from elastogeo.changes import FleetState, MachineRow
 from elastogeo.report.changes.fleet_rows import move_said, row_said
-from elastogeo.report.changes.words import iso_date
+from elastogeo.report.days import iso_date
 from elastogeo.report.document import document
 
 

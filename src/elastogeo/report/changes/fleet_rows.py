@@ -17,16 +17,8 @@ from elastogeo.changes import (
     MachineRow,
 )
 from elastogeo.report.changes.answers import component_said
-from elastogeo.report.changes.words import (
-    MARKS,
-    changed,
-    date_said,
-    days_said,
-    marked,
-    short_date,
-    shown_unit,
-    size_said,
-)
+from elastogeo.report.changes.words import MARKS, changed, marked, shown_unit, size_said
+from elastogeo.report.days import date_said, days_said, short_date
 from elastogeo.report.text import listed
 from elastogeo.report.view import Table
 

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from elastogeo.changes import ALARM, MACHINE_STATES, NO_BASELINE, OVERDUE, STEADY, SUSPECT, WATCH, FleetState
 from elastogeo.report.changes.fleet_document import fleet_json
 from elastogeo.report.changes.fleet_rows import fleet_table, move_said, move_table, predicate_of
-from elastogeo.report.changes.words import MARKS, TONES, date_said, simulated_said, title_of
+from elastogeo.report.changes.words import MARKS, TONES, title_of
+from elastogeo.report.days import date_said, simulated_said
 from elastogeo.report.text import listed
 from elastogeo.report.view import Badge, KeyValue, Section, View, views
 

@@ -10,7 +10,8 @@ from elastogeo.report.changes.answers import sentence_of_change, series_said, wo
 from elastogeo.report.changes.change_view import change_view
 from elastogeo.report.changes.document import answer_entries, change_entries
 from elastogeo.report.changes.points import points_of
-from elastogeo.report.changes.words import MARKS, TONES, days_said, iso_date, marked, predicate, short_date, title_of
+from elastogeo.report.changes.words import MARKS, TONES, marked, predicate, title_of
+from elastogeo.report.days import days_said, iso_date, short_date
 from elastogeo.report.document import document, verdict_entries
 from elastogeo.report.text import listed
 from elastogeo.report.view import Badge, Section, Table, View, views

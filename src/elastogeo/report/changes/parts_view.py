@@ -19,16 +19,8 @@ from elastogeo.changes import (
 )
 from elastogeo.report.changes.answers import component_said
 from elastogeo.report.changes.events import event_said
-from elastogeo.report.changes.words import (
-    change_interval_said,
-    change_said,
-    date_said,
-    days_said,
-    marked,
-    shown_unit,
-    to_place_of,
-    value_said,
-)
+from elastogeo.report.changes.words import change_interval_said, change_said, marked, shown_unit, to_place_of, value_said
+from elastogeo.report.days import date_said, days_said
 from elastogeo.report.numbers import significant, whole_percent
 from elastogeo.report.text import listed
 from elastogeo.report.view import lines

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from elastogeo.changes import ALARM, SUSPECT, ChangeVerdict, IndicatorState, Step
-from elastogeo.report.changes.words import date_said
+from elastogeo.report.days import date_said
 
 BASELINE = "baseline"
 ASIDE = "set aside"

@@ -18,7 +18,7 @@ from elastogeo.changes import (
     Recomputed,
     RecomputedTest,
 )
-from elastogeo.report.changes.words import days_said, iso_date, short_date
+from elastogeo.report.days import days_said, iso_date, short_date
 from elastogeo.report.document import document, verdict_entries
 from elastogeo.report.numbers import significant
 from elastogeo.report.text import listed

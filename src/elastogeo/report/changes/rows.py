@@ -15,15 +15,14 @@ from elastogeo.report.changes.words import (
     MARKS,
     change_interval_said,
     change_said,
-    date_said,
     marked,
-    short_date,
     shown_unit,
     size_said,
     title_of,
     to_place_of,
     value_said,
 )
+from elastogeo.report.days import date_said, short_date
 from elastogeo.report.numbers import whole_percent
 from elastogeo.report.view import Table
 

@@ -8,7 +8,8 @@ from math import isfinite
 from typing import Any
 
 from elastogeo.changes import DRIFT, FaultFound, Kind, RuleTest
-from elastogeo.report.changes.words import days_said, shown_unit, size_said, title_of
+from elastogeo.report.changes.words import shown_unit, size_said, title_of
+from elastogeo.report.days import days_said
 from elastogeo.report.document import document
 from elastogeo.report.numbers import significant, whole_percent
 from elastogeo.report.view import KeyValue, Section, Table, View, lines, views

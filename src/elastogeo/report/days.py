@@ -1,0 +1,57 @@
+"""Days since 1970 as a person and as JSON has them, and from what tests of many days are simulated."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime, timedelta
+from math import ceil, isfinite
+
+_EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
+_LAST_DAY = 2_900_000.0
+"""Days since 1970 that a calendar holds."""
+
+
+def moment(day: float) -> datetime | None:
+    """A date [d] as a calendar has it; none of what no calendar has."""
+    return _EPOCH + timedelta(days=day) if isfinite(day) and abs(day) < _LAST_DAY and day > -_LAST_DAY / 4 else None
+
+
+def date_said(day: float | None) -> str:
+    """`11 June 2026`; empty for none."""
+    at = None if day is None else moment(day)
+    return "" if at is None else f"{at.day} {at:%B %Y}"
+
+
+def short_date(day: float | None) -> str:
+    """`11 Jun 2026`, for tables; empty for none."""
+    at = None if day is None else moment(day)
+    return "" if at is None else f"{at.day} {at:%b %Y}"
+
+
+def month_said(day: float) -> str:
+    """`April 2027`; `later than any date` of what no calendar has."""
+    at = moment(day)
+    return "later than any date" if at is None else f"{at:%B %Y}"
+
+
+def moment_said(day: float | None) -> str:
+    """`11 Jun 2026 08:30 UTC`; empty for none."""
+    at = None if day is None else moment(day)
+    return "" if at is None else f"{at.day} {at:%b %Y %H:%M} UTC"
+
+
+def iso_date(day: float | None) -> str | None:
+    """As JSON has it: `2026-06-11T08:00:00Z`; none for none."""
+    at = None if day is None else moment(day)
+    return None if at is None else f"{at:%Y-%m-%dT%H:%M:%SZ}"
+
+
+def days_said(days: float) -> str:
+    """A duration in whole days, a part of a day as a whole one."""
+    whole = max(ceil(days - 1e-9), 0)
+    return f"{whole} day{'' if whole == 1 else 's'}"
+
+
+def simulated_said(simulated: str) -> str:
+    """From what tests are simulated: of many simulations the first and how many more there are; empty for none."""
+    first, *others = simulated.split("; ")
+    return f"Simulated: {first}{f' and {len(others)} more' if others else ''}" if simulated else ""
