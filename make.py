@@ -214,7 +214,7 @@ def installed_extras(fingerprint):
         extras = set(stamp["extras"]) if stamp["fingerprint"] == fingerprint else set()
     except (OSError, ValueError, KeyError, TypeError):
         return set()
-    return extras | {"report", "logs", "live", "history", "postgresql"} if "all" in extras else extras
+    return extras | {"report", "logs", "live", "history", "postgresql", "web"} if "all" in extras else extras
 
 
 def run(command):

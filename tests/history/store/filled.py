@@ -27,7 +27,7 @@ def row_of(table: Table, **given: object) -> dict[str, object]:
         elif isinstance(column.type, Document | Packed):
             row[column.name] = {"x": [1.5, None, "µ"]}
         elif column.name in CHOICES and not (column.name == "kind" and table.name != "event"):
-            row[column.name] = "waiting" if table.name == "outbox" else CHOICES[column.name]
+            row[column.name] = "waiting" if table.name in ("outbox", "job") else CHOICES[column.name]
         elif column.name == "sha256":
             row[column.name] = "a" * 64
         elif column.type.python_type in (int, float, bool):

@@ -29,7 +29,7 @@ NEXT = """
 import sqlalchemy as sa
 from alembic import op
 
-revision, down_revision = "0002", "0001"
+revision, down_revision = "0003", "0002"
 
 
 def upgrade():
@@ -53,9 +53,9 @@ def next_schema(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """This version has one schema more."""
     folder = tmp_path / "versions"
     folder.mkdir()
-    (folder / "s0002.py").write_text(NEXT, encoding="utf-8")
+    (folder / "s0003.py").write_text(NEXT, encoding="utf-8")
     monkeypatch.setattr(migrations, "FOLDERS", (*migrations.FOLDERS, folder))
-    monkeypatch.setattr(migrations, "REVISIONS", ("0001", "0002"))
+    monkeypatch.setattr(migrations, "REVISIONS", ("0001", "0002", "0003"))
 
 
 @pytest.fixture
@@ -146,13 +146,13 @@ def test_every_released_schema_becomes_that_of_this_version(released: str, kind:
 @pytest.mark.usefixtures("next_schema")
 def test_an_older_schema_is_refused_until_it_is_migrated(url: str) -> None:
     with pytest.raises(
-        StoreError, match=r"an older elastogeo \(schema 0001, this one needs 0002\); back it up, then migrate"
+        StoreError, match=r"an older elastogeo \(schema 0002, this one needs 0003\); back it up, then migrate"
     ):
         open_store(url)
     with open_store(url, create=True, who="A. Miller") as store, read(store) as connection:
         row = connection.execute(text("SELECT who, what, old, new FROM audit ORDER BY number DESC")).first()
     assert row is not None
-    assert tuple(row) == ("A. Miller", "migrate", '"0001"', '"0002"')
+    assert tuple(row) == ("A. Miller", "migrate", '"0002"', '"0003"')
     open_store(url).close()
 
 
@@ -161,7 +161,7 @@ def test_a_newer_schema_is_refused(store: Store, url: str) -> None:
         connection.execute(text(f"UPDATE {VERSION_TABLE} SET version_num = '0999'"))
     for create in (False, True):
         with pytest.raises(
-            StoreError, match=r"a newer elastogeo \(schema 0999; .* knows 0001 and older\); install that version"
+            StoreError, match=r"a newer elastogeo \(schema 0999; .* knows 0002 and older\); install that version"
         ):
             open_store(url, create=create)
 
@@ -191,7 +191,7 @@ def test_making_a_history_that_is_there_changes_nothing(store: Store, url: str) 
 def check_next(store: Store) -> None:
     """The artificial step was made, and nothing else."""
     with read(store) as connection:
-        assert revision(connection) == "0002"
+        assert revision(connection) == "0003"
         assert audit.verify(connection) == ()
         assert frozen(connection) == set(FROZEN)
         assert connection.execute(text("SELECT name FROM hall")).scalars().all() == ["machine.place"]
@@ -224,12 +224,12 @@ def test_a_step_changes_frozen_rows_and_freezes_them_again(older: Store, url: st
 def test_a_step_that_fails_leaves_the_history_as_it_was(older: Store, url: str, tmp_path: Path) -> None:
     before = contents(older)
     older.close()
-    step = tmp_path / "versions" / "s0002.py"
+    step = tmp_path / "versions" / "s0003.py"
     step.write_text(NEXT + "    raise ZeroDivisionError\n", encoding="utf-8")
     with pytest.raises(ZeroDivisionError):
         open_store(url, create=True)
     with read(older) as connection:
-        assert revision(connection) == "0001"
+        assert revision(connection) == "0002"
         assert frozen(connection) == set(FROZEN)
     assert contents(older) == before
 
@@ -293,7 +293,7 @@ def kills_between_statements(older: Store, url: str, step: int) -> int:
     while killed(migrate, 1 + kills * step):
         kills += 1
         with read(older) as connection:
-            assert revision(connection) == "0001"
+            assert revision(connection) == "0002"
             assert frozen(connection) == set(FROZEN)
         assert contents(older) == before
         older.close()

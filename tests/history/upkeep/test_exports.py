@@ -119,7 +119,7 @@ def test_an_export_is_files_that_any_program_reads(full: Store, tmp_path: Path) 
     }  # fmt: skip
     assert json.loads(found["test"][0])["at"] == 1_772_438_400_000_000  # 2026-03-02 08:00 UTC
     manifest = json.loads((tmp_path / "export" / "manifest.json").read_bytes())
-    assert (manifest["schema"], manifest["content"], manifest["revision"]) == (SCHEMA, "rows", "0001")
+    assert (manifest["schema"], manifest["content"], manifest["revision"]) == (SCHEMA, "rows", "0002")
     assert {name: of["rows"] for name, of in manifest["tables"].items()} == {name: len(of) for name, of in found.items()}
 
 
@@ -173,9 +173,9 @@ def test_what_is_no_copy_or_too_new_is_refused_by_name(full: Store, tmp_path: Pa
         restore(tmp_path / "none", tmp_path / "h.db")
     with pytest.raises(StoreError, match=r"is no backup and no export: it has no manifest\.json"):
         restore(tmp_path, tmp_path / "h.db")
-    monkeypatch.setattr("elastogeo.history.upkeep.exports.REVISIONS", ("0001", "0999"))
+    monkeypatch.setattr("elastogeo.history.upkeep.exports.REVISIONS", ("0001", "0002", "0999"))
     export(full, tmp_path / "newer")
-    with pytest.raises(StoreError, match=r"was written by a newer elastogeo \(.*, schema 0999; .* knows 0001 and older\)"):
+    with pytest.raises(StoreError, match=r"was written by a newer elastogeo \(.*, schema 0999; .* knows 0002 and older\)"):
         restore(tmp_path / "newer", tmp_path / "h.db")
     monkeypatch.undo()
     export(full, tmp_path / "export")

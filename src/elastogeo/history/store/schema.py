@@ -1,8 +1,8 @@
 """The tables. Raw, result and audit rows are written once: the database itself refuses to change or delete them (`FROZEN`).
 
 What changes with time is a row more: a test is set aside, an alarm takes a step, a baseline follows another. Only
-`series_state`, `outbox` and `instrument`, `machine`, `series`, `recipient`, `plan`, `campaign` hold what may be written
-over.
+`series_state`, `outbox`, `job`, `drawing`, `account`, `token`, `session` and `instrument`, `machine`, `series`, `recipient`,
+`plan`, `campaign` hold what may be written over.
 """
 
 from __future__ import annotations
@@ -286,6 +286,60 @@ outbox = _table(
     UniqueConstraint("step", "recipient"),
     _one_of("state", "waiting", "sent", "given up"),
     Index(None, "state", "next_at"),
+)
+# who may come in through the pages
+account = _table(
+    "account",
+    _of("person", "person"),
+    Column("password", Text),  # as Argon2id keeps it; None: no password, tokens only
+    Column("active", Boolean, nullable=False),
+    Column("changed_at", Instant, nullable=False),
+    UniqueConstraint("person"),
+)
+token = _table(
+    "token",
+    _of("person", "person"),
+    Column("name", Text, nullable=False),
+    Column("sha256", Text, nullable=False, unique=True),  # of the token, which is shown once
+    Column("made_at", Instant, nullable=False),
+    Column("ended_at", Instant),
+)
+session = _table(
+    "session",
+    _of("person", "person"),
+    Column("sha256", Text, nullable=False, unique=True),  # of what the cookie holds
+    Column("made_at", Instant, nullable=False),
+    Column("seen_at", Instant, nullable=False),
+    Column("ended_at", Instant),
+)
+# what takes long
+job = _table(
+    "job",
+    Column("kind", Text, nullable=False),  # a registered kind
+    Column("asked", Document, nullable=False),
+    Column("state", Text, nullable=False),
+    _text("who"),
+    Column("made_at", Instant, nullable=False),
+    Column("started_at", Instant),
+    Column("beat_at", Instant),  # when its worker was alive last
+    Column("ended_at", Instant),
+    _text("worker"),
+    Column("tries", Integer, nullable=False, server_default="0"),
+    _text("step"),  # what it does now, in words
+    Column("done", Integer, nullable=False, server_default="0"),
+    Column("total", Integer, nullable=False, server_default="0"),
+    Column("result", Packed),
+    _text("error"),
+    _one_of("state", "waiting", "running", "done", "failed", "cancelled"),
+    Index(None, "state"),
+)
+drawing = _table(
+    "drawing",
+    _of("analysis", "analysis"),
+    Column("software", Text, nullable=False),
+    Column("made_at", Instant, nullable=False),
+    Column("content", Packed, nullable=False),  # what the page of a test shows, drawn once; made anew at any time
+    UniqueConstraint("analysis", "software"),
 )
 # who did what
 audit = Table(

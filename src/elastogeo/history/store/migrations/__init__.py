@@ -17,7 +17,7 @@ from elastogeo.history.store import audit
 from elastogeo.history.store.frozen import freeze, thaw
 from elastogeo.version import VERSION
 
-REVISIONS = ("0001",)
+REVISIONS = ("0001", "0002")
 """The schemas that there were, the oldest first; the last one is that of `schema.py`."""
 VERSION_TABLE = "schema_version"
 FOLDERS = (Path(__file__).parent / "versions",)
