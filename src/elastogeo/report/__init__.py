@@ -6,9 +6,11 @@ only when something is drawn or a page is written.
 """
 
 from elastogeo.report import showing as _showing  # noqa: F401  the renderer of every result registers itself
+from elastogeo.report.drawing.plot_svg import plot_svg
+from elastogeo.report.drawing.plots import Plot, plot_of
 from elastogeo.report.extra import MissingExtraError
 from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
-from elastogeo.report.page import html_page, pdf_page, save_report
+from elastogeo.report.page import csv_of, html_page, pdf_page, save_report
 from elastogeo.report.sentences import says, sentence_of
 from elastogeo.report.view import KeyValue, Picture, Said, Section, Table, View, view_of, views
 
@@ -17,13 +19,17 @@ __all__ = [
     "KeyValue",
     "MissingExtraError",
     "Picture",
+    "Plot",
     "Said",
     "Section",
     "Table",
     "View",
+    "csv_of",
     "display_unit",
     "html_page",
     "pdf_page",
+    "plot_of",
+    "plot_svg",
     "save_report",
     "says",
     "sentence_of",

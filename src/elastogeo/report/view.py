@@ -21,6 +21,8 @@ from elastogeo.report.sentences import sentence_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from elastogeo.report.drawing.plots import Plot
+
 
 @dataclass(frozen=True, slots=True)
 class Said:
@@ -85,6 +87,12 @@ class Table:
         Below it.
     strong : tuple of int
         Rows that are set bold.
+    name : str
+        By which a page picks it; empty where none does.
+    keys : tuple of int or str
+        What each row is of, a machine's or a test's key, of which a page makes a link; empty, or one a row.
+    sparks : tuple of Plot
+        A small trend for each row; empty, or one a row. Only pages show them.
     """
 
     headings: tuple[str, ...]
@@ -93,6 +101,9 @@ class Table:
     title: str = ""
     note: str = ""
     strong: tuple[int, ...] = ()
+    name: str = ""
+    keys: tuple[int | str, ...] = ()
+    sparks: tuple[Plot, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,12 +119,16 @@ class Picture:
         What it shows, for those who cannot see it.
     draw : callable
         Gives the matplotlib figure, under the house style.
+    plain, narrow : callable or None
+        Gives the same as plain shapes, where a page must be fast; `narrow` for a phone.
     """
 
     name: str
     caption: str
     alternative: str
     draw: Callable[[], Figure] = field(compare=False)
+    plain: Callable[[], Plot] | None = field(default=None, compare=False)
+    narrow: Callable[[], Plot] | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,6 +241,11 @@ class View:
     def supported(self) -> bool:
         """Whether the data support what was asked: no decisive check failed."""
         return not any(check.decisive and check.passed is False for check in self.checks)
+
+    def table(self, name: str) -> Table | None:
+        """The table of this name, the one of the first screen before those of the sections; None if there is none."""
+        every = (*self.tables, *(table for section in self.sections for table in section.tables))
+        return next((table for table in every if table.name == name), None)
 
     @property
     def pictures(self) -> dict[str, Picture]:

@@ -1,7 +1,8 @@
 """Any view as an HTML page that opens offline, and as a PDF; a report's files, written whole or not at all."""
 
+from elastogeo.report.page.csv import csv_of
 from elastogeo.report.page.files import save_report
 from elastogeo.report.page.html import html_page
 from elastogeo.report.page.pdf import pdf_page
 
-__all__ = ["html_page", "pdf_page", "save_report"]
+__all__ = ["csv_of", "html_page", "pdf_page", "save_report"]
