@@ -24,7 +24,8 @@ from typing import Any
 
 ORDER = (
     "new", "simulate", "identify", "diagnose", "compare", "whatif", "stiffness", "static", "positioning", "drive",
-    "record", "inspect", "calibrate", "explain", "plan", "nc", "map", "predict", "compensate", "history", "machines", "demo",
+    "record", "inspect", "calibrate", "explain", "plan", "nc", "map", "predict", "compensate", "history",
+    "serve", "machines", "demo",
 )  # fmt: skip
 """In which the help lists the commands; one that is not here comes last."""
 

@@ -13,10 +13,12 @@ from elastogeo.history.extra import needs_history_extra
 
 if TYPE_CHECKING:
     from elastogeo.history.history import Added, History
+    from elastogeo.history.intake.machines import KnownMachine
+    from elastogeo.history.store import Store
 
-_found = first_use(__name__, {"history": "Added History"})
+_found = first_use(__name__, {"history": "Added History", "intake.machines": "KnownMachine", "store.opening": "Store"})
 
-__all__ = ["Added", "History"]
+__all__ = ["Added", "History", "KnownMachine", "Store"]
 
 
 def __getattr__(name: str) -> Any:

@@ -49,7 +49,7 @@ from elastogeo.history.records import Records
 from elastogeo.history.requirements.baselines import Chosen, choose, set_baseline
 from elastogeo.history.requirements.intervals import set_interval
 from elastogeo.history.requirements.tolerances import kind_of, set_tolerance
-from elastogeo.history.store import Store, audit, now, open_store, read
+from elastogeo.history.store import Store, audit, edition, now, open_store, read
 from elastogeo.history.upkeep.backups import back_up
 from elastogeo.history.upkeep.exports import export
 from elastogeo.history.upkeep.manifests import Copied
@@ -119,6 +119,13 @@ class History(Records):
         self.who = who or audit.login()
         self.store: Store = open_store(url, create, files=files, who=self.who)
 
+    @classmethod
+    def of(cls, store: Store, who: str) -> History:
+        """A history that is open already, in somebody's name: the pages serve many persons from one."""
+        history = cls.__new__(cls)
+        history.who, history.store = who, store
+        return history
+
     def __enter__(self) -> History:
         return self
 
@@ -176,6 +183,11 @@ class History(Records):
     def export(self, folder: str | Path, step: Step = silent) -> Copied:
         """Write everything as files into a new folder."""
         return export(self.store, folder, step)
+
+    def edition(self) -> str:
+        """Another text as soon as anything has changed that is shown of the history."""
+        with read(self.store) as connection:
+            return edition(connection)
 
     def machines(self) -> tuple[KnownMachine, ...]:
         """All machines, by name."""

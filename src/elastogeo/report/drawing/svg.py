@@ -45,3 +45,8 @@ def inline(svg: bytes, picture: Picture) -> str:
     head, rest = text.split(">", 1)
     head = re.sub(r'\s(?:width|height|version)="[^"]*"', "", head)
     return f'{head} role="img" aria-label="{picture.alternative}">{rest}'
+
+
+def svg_of(picture: Picture) -> str:
+    """A picture as an element inside a page."""
+    return inline(drawn(picture), picture)

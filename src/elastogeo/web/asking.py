@@ -1,0 +1,148 @@
+"""What a page is asked with: the history in the visitor's name, who asks, and what may be refused."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Annotated
+from urllib.parse import quote, urlsplit
+
+from fastapi import Depends, Request
+
+from elastogeo.errors import InputError
+from elastogeo.history import History, KnownMachine
+from elastogeo.version import VERSION
+from elastogeo.web.settings import Settings
+
+READER, ENGINEER, ADMINISTRATOR = "reader", "engineer", "administrator"
+ROLES = (READER, ENGINEER, ADMINISTRATOR)
+"""What a person may do, each what the one before may and more: look; test, judge and plan; decide who comes in."""
+THEMES = ("auto", "light", "dark")
+
+
+class NotFound(InputError):  # noqa: N818
+    """There is nothing at this address; the sentence says what is missing."""
+
+
+class Refused(InputError):  # noqa: N818
+    """The visitor's role does not allow this."""
+
+
+@dataclass(frozen=True, slots=True)
+class Visitor:
+    """Who asks.
+
+    Attributes
+    ----------
+    name : str
+        For the audit trail.
+    role : str
+        One of ROLES.
+    account : int or None
+        Key of the person; None where there are no accounts.
+    """
+
+    name: str
+    role: str
+    account: int | None = None
+
+    def may(self, role: str) -> bool:
+        """Whether the visitor's role allows what this one may."""
+        return ROLES.index(self.role) >= ROLES.index(role)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A request, as a page function sees it.
+
+    Attributes
+    ----------
+    request : Request
+    settings : Settings
+    visitor : Visitor
+    history : History
+        In the visitor's name.
+    """
+
+    request: Request
+    settings: Settings
+    visitor: Visitor
+    history: History
+
+    @cached_property
+    def theme(self) -> str:
+        """`light`, `dark`, or `auto`: as the browser prefers."""
+        asked = self.request.cookies.get("elastogeo_theme", "auto")
+        return asked if asked in THEMES else "auto"
+
+    @property
+    def says_something(self) -> bool:
+        """Whether the page also says what was done just before."""
+        return "elastogeo_said" in self.request.cookies
+
+    @property
+    def by_htmx(self) -> bool:
+        """Whether a part of a page is asked for, to be put into the page that is there."""
+        return self.request.headers.get("hx-request") == "true"
+
+    def tag(self) -> str:
+        """The ETag of what is shown: another one as soon as something that a page shows has changed."""
+        asked = self.request
+        parts = (
+            VERSION,
+            self.history.edition(),
+            str(asked.url.path),
+            str(asked.url.query),
+            self.visitor.name,
+            self.visitor.role,
+            self.theme,
+            str(self.by_htmx),
+        )
+        return f'"{hashlib.sha256(chr(0).join(parts).encode()).hexdigest()[:32]}"'
+
+    def url(self, path: str, **query: object) -> str:
+        """An address within the pages, with the prefix of a proxy and what is asked there."""
+        said = "&".join(
+            f"{quote(name)}={quote(str(value), safe='')}" for name, value in query.items() if value not in ("", None)
+        )
+        return f"{self.settings.prefix}{path}{'?' if said else ''}{said}"
+
+    def came_from(self) -> str:
+        """The page from which this was asked, if it is one of ours; else the fleet."""
+        asked, said = self.request.url, urlsplit(self.request.headers.get("referer", ""))
+        ours = said.netloc == self.request.headers.get("host", asked.netloc) and said.path.startswith(self.url("/"))
+        path = f"/{said.path.lstrip('/')}"
+        return (f"{path}?{said.query}" if said.query else path) if ours else self.url("/")
+
+    def machine(self, key: int) -> KnownMachine:
+        """The machine of a key.
+
+        Raises
+        ------
+        NotFound
+        """
+        found = next((one for one in self.history.machines() if one.key == key), None)
+        if found is None:
+            raise NotFound("There is no such machine.")
+        return found
+
+    def needs(self, role: str) -> None:
+        """Refuse who may not do this.
+
+        Raises
+        ------
+        Refused
+        """
+        if not self.visitor.may(role):
+            raise Refused(f"this needs the role {role}; {self.visitor.name} is {self.visitor.role}: ask an administrator")
+
+
+def asked_of(request: Request) -> Asked:
+    """A request as a page function sees it."""
+    visitor: Visitor = request.state.visitor
+    return Asked(request, request.app.state.settings, visitor, History.of(request.app.state.store, visitor.name))
+
+
+Ask = Annotated[Asked, Depends(asked_of)]
+"""The type of the first parameter of a page function: `asked: Ask`."""

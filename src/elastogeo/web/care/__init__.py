@@ -1,0 +1,1 @@
+"""The pages of care: alarms, instruments, settings, the audit trail, copies."""

@@ -1,0 +1,133 @@
+"""How a page comes in: a function, the address at which it shows, and the role that it needs.
+
+    pages = Pages()
+
+    @pages.shows("/machines/{key:int}")
+    def machine(asked: Ask, key: int) -> Shown: ...
+
+    @pages.acts("/machines/{key:int}/events", role=ENGINEER)
+    def add_event(asked: Ask, key: int, note: Annotated[str, Form(max_length=2000)]) -> Done: ...
+
+Every page has its JSON and its CSV at the same path; none can be registered without a role.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from inspect import iscoroutinefunction
+from typing import Any, TypeVar
+
+from fastapi import APIRouter, Response
+
+from elastogeo.web.answering import CSV, HTML, JSON, Done, Shown, gone_on, rendered
+from elastogeo.web.asking import READER, Asked
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+MEDIA = {HTML: "text/html", JSON: "application/json", CSV: "text/csv"}
+
+
+class Pages(APIRouter):
+    """The pages of one file. Its name is `pages`: that is how it is found."""
+
+    def shows(self, path: str, *, role: str = READER, fresh: bool = False) -> Callable[[Function], Function]:
+        """Register a page and its twins.
+
+        Parameters
+        ----------
+        path : str
+            `/machines/{key:int}`.
+        role : str
+            That a visitor needs.
+        fresh : bool
+            Whether it shows what the history's edition does not tell: what is going on just now.
+        """
+
+        def register(function: Function) -> Function:
+            for twin, media in MEDIA.items():
+                at = f"{'/fleet' if path == '/' and twin else path}{twin}"
+                self._add(at, _shown(function, twin, role, fresh), "GET", function, role, media if twin else "")
+            return function
+
+        return register
+
+    def acts(self, path: str, *, role: str) -> Callable[[Function], Function]:
+        """Register what a person or a program does: a form that is posted."""
+
+        def register(function: Function) -> Function:
+            self._add(path, _acted(function, role), "POST", function, role, "application/json")
+            return function
+
+        return register
+
+    def gives(
+        self, path: str, *, role: str = READER, media: str = "application/octet-stream"
+    ) -> Callable[[Function], Function]:
+        """Register a file to download, or anything else of one form only: the function makes the response."""
+
+        def register(function: Function) -> Function:
+            self._add(path, _given(function, role), "GET", function, role, media)
+            return function
+
+        return register
+
+    def makes(self, path: str, *, role: str) -> Callable[[Function], Function]:
+        """Register an act that makes its own response: one that sets a cookie, or reads the body as it comes."""
+
+        def register(function: Function) -> Function:
+            self._add(path, _given(function, role), "POST", function, role, "application/json")
+            return function
+
+        return register
+
+    def _add(self, path: str, endpoint: Callable[..., Any], method: str, function: Function, role: str, media: str) -> None:
+        said: dict[int | str, dict[str, Any]] = {200: {"content": {media: {}}}} if media else {}
+        self.add_api_route(
+            path,
+            endpoint,
+            methods=[method],
+            name=f"{function.__name__}{path}",
+            include_in_schema=bool(media),
+            response_class=Response,
+            response_model=None,
+            responses=said,
+            tags=[role],
+            openapi_extra={"x-role": role},
+        )
+
+
+def _shown(function: Callable[..., Shown], twin: str, role: str, fresh: bool) -> Callable[..., Response]:
+    @wraps(function)
+    def endpoint(asked: Asked, **given: Any) -> Response:
+        asked.needs(role)
+        tag = "" if fresh or asked.says_something else asked.tag()
+        if tag and tag in asked.request.headers.get("if-none-match", ""):
+            return Response(status_code=304, headers={"ETag": tag, "Cache-Control": "private, no-cache"})
+        return rendered(function(asked=asked, **given), asked, twin, tag)
+
+    return endpoint
+
+
+def _acted(function: Callable[..., Done], role: str) -> Callable[..., Response]:
+    @wraps(function)
+    def endpoint(asked: Asked, **given: Any) -> Response:
+        asked.needs(role)
+        return gone_on(function(asked=asked, **given), asked)
+
+    return endpoint
+
+
+def _given(function: Callable[..., Any], role: str) -> Callable[..., Any]:
+    @wraps(function)
+    def endpoint(asked: Asked, **given: Any) -> Response:
+        asked.needs(role)
+        answer: Response = function(asked=asked, **given)
+        return answer
+
+    @wraps(function)
+    async def waiting(asked: Asked, **given: Any) -> Response:
+        asked.needs(role)
+        answer: Response = await function(asked=asked, **given)
+        return answer
+
+    return waiting if iscoroutinefunction(function) else endpoint

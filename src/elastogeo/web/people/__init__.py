@@ -1,0 +1,1 @@
+"""The pages of people: who logs in, and who may do what."""

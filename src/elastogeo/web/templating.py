@@ -1,0 +1,69 @@
+"""Templates, and what every one of them knows."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import cache
+from importlib.resources import files
+from typing import Any
+from urllib.parse import unquote
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from elastogeo.report import Picture, svg_of
+from elastogeo.version import VERSION
+from elastogeo.web.asking import Asked
+
+STATIC = files("elastogeo.web") / "static"
+
+
+def page(name: str, asked: Asked, **context: Any) -> str:
+    """A template, filled.
+
+    Parameters
+    ----------
+    name : str
+        Its file, below `templates`.
+    asked : Asked
+    context
+        What it shows.
+    """
+    return (
+        _environment()
+        .get_template(name)
+        .render(
+            asked=asked,
+            url=asked.url,
+            static=lambda file: f"{asked.settings.prefix}/static/{file}?v={_digest(file)}",
+            visitor=asked.visitor,
+            theme=asked.theme,
+            said=unquote(asked.request.cookies.get("elastogeo_said", "")),
+            version=VERSION,
+            **context,
+        )
+    )
+
+
+@cache
+def _environment() -> Environment:
+    environment = Environment(
+        loader=PackageLoader("elastogeo.web"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["drawn"] = _drawn
+    return environment
+
+
+def _drawn(picture: Picture) -> Markup:
+    """A picture as an SVG element, in the page's own colours."""
+    return Markup(svg_of(picture))
+
+
+@cache
+def _digest(file: str) -> str:
+    """A few digits of a file's hash: its address is another one when it changes."""
+    return hashlib.sha256((STATIC / file).read_bytes()).hexdigest()[:12]

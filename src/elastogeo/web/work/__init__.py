@@ -1,0 +1,1 @@
+"""The pages of work: what is uploaded, planned, and takes long."""
