@@ -8,6 +8,7 @@ only when something is drawn or a page is written.
 from elastogeo.report import showing as _showing  # noqa: F401  the renderer of every result registers itself
 from elastogeo.report.drawing.plot_svg import plot_svg
 from elastogeo.report.drawing.plots import Plot, plot_of
+from elastogeo.report.drawing.svg import svg_of
 from elastogeo.report.extra import MissingExtraError
 from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
 from elastogeo.report.page import csv_of, html_page, pdf_page, save_report
@@ -34,6 +35,7 @@ __all__ = [
     "says",
     "sentence_of",
     "significant",
+    "svg_of",
     "value_with_uncertainty",
     "view_of",
     "views",

@@ -11,7 +11,7 @@ from urllib.parse import unquote
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from elastogeo.report import Picture, svg_of
+from elastogeo.report import Picture, plot_svg, svg_of
 from elastogeo.version import VERSION
 from elastogeo.web.asking import Asked
 
@@ -54,13 +54,13 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["drawn"] = _drawn
+    environment.filters |= {"drawn": _drawn, "plot": lambda plot: Markup(plot_svg(plot))}
     return environment
 
 
 def _drawn(picture: Picture) -> Markup:
     """A picture as an SVG element, in the page's own colours."""
-    return Markup(svg_of(picture))
+    return Markup(svg_of(picture) if picture.plain is None else plot_svg(picture.plain()))
 
 
 @cache
