@@ -19,6 +19,7 @@ from elastogeo.report.identification.explanation_document import explanation_jso
 from elastogeo.report.machines.document import machine_json
 
 KEYS = {
+    "correlation",
     "tests",
     "together",
     "tests_agreement",
@@ -148,6 +149,18 @@ def test_a_number_that_is_none_is_null(rich) -> None:
     assert "NaN" not in json.dumps(document, allow_nan=False)
 
 
+def test_the_correlation_and_the_uncertainties_are_the_covariance(separated, rich) -> None:
+    document = identification_json(separated)
+    u = np.array([parameter["standard_uncertainty"] for parameter in document["parameters"]])
+    whole = np.eye(len(u))
+    for k, row in enumerate(document["correlation"]):
+        whole[k, : len(row)] = whole[: len(row), k] = row
+        assert len(row) == k
+    np.testing.assert_allclose(whole * np.outer(u, u), separated.budget.covariance, rtol=1e-9)
+    assert np.abs(whole - np.eye(len(u))).max() > 0.1
+    assert identification_json(rich)["correlation"] is None
+
+
 def test_confounding(rich) -> None:
     document = explanation_json(Explanation(rich.campaign, rich.confounding), None)
     assert document["schema"] == "elastogeo.explanation/1"
@@ -249,6 +262,7 @@ def test_diagnosis(separated, mixed) -> None:
     document = diagnosis_json(diagnosis)
     strict(document)
     assert document["schema"] == "elastogeo.diagnosis/1"
+    assert document["joints"] == identification_json(separated)
     first = document["faults"][0]
     assert first["distortion_um"] == 1000 * diagnosis.faults[0].distortion
     assert set(first) >= {

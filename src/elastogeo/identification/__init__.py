@@ -23,7 +23,16 @@ if TYPE_CHECKING:
     from elastogeo.identification.check import Check
     from elastogeo.identification.explanation import Explanation, explain
     from elastogeo.identification.faults.circularity import Circularity, circularity
-    from elastogeo.identification.faults.comparison import BeforeAfter, Difference, compare
+    from elastogeo.identification.faults.comparison import (
+        BeforeAfter,
+        Determined,
+        Difference,
+        compare,
+        determined,
+        differences_of,
+        in_common,
+        unchanged,
+    )
     from elastogeo.identification.faults.diagnosis import Diagnosis, Fault, diagnose
     from elastogeo.identification.faults.what_if import WhatIf, what_if
     from elastogeo.identification.feed_drives.axis_drives import identify_drives
@@ -139,6 +148,7 @@ __all__ = [
     "ComparedForce",
     "Consistency",
     "Contribution",
+    "Determined",
     "Diagnosis",
     "Difference",
     "DriveIdentification",
@@ -212,8 +222,10 @@ __all__ = [
     "confounding_of",
     "consistency",
     "consistency_of",
+    "determined",
     "diagnose",
     "difference",
+    "differences_of",
     "effect",
     "effects_of",
     "evaluate_positioning",
@@ -225,6 +237,7 @@ __all__ = [
     "hysteresis",
     "identify",
     "identify_drives",
+    "in_common",
     "is_compliance",
     "local_change",
     "local_estimates",
@@ -251,6 +264,7 @@ __all__ = [
     "systems_of",
     "turning_points",
     "uncertainty_budget",
+    "unchanged",
     "what_if",
     "what_reciprocity_buys",
     "where_in_the_drive",
@@ -270,7 +284,7 @@ __getattr__ = first_use(
         "check": "Check",
         "explanation": "Explanation explain",
         "faults.circularity": "Circularity circularity",
-        "faults.comparison": "BeforeAfter Difference compare",
+        "faults.comparison": "BeforeAfter Determined Difference compare determined differences_of in_common unchanged",
         "faults.diagnosis": "Diagnosis Fault diagnose",
         "faults.what_if": "WhatIf what_if",
         "feed_drives.axis_drives": "identify_drives",

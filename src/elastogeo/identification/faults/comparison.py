@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Unpack
 
@@ -91,49 +91,93 @@ def compare(
         raise UnsupportedError(
             f"the tests are of different machines, {machines[0].topology.compact} and {machines[1].topology.compact}"
         )
-    stands = [{p.name: p.stands_for for p in result.parameters} for result in (before, after)]
-    common = [name for name in stands[0] if name in stands[1] and set(stands[0][name]) == set(stands[1][name])]
-    if not common:
+    sides = determined(before), determined(after)
+    names = in_common(*sides)
+    if not names:
         raise UnsupportedError("the tests determine no parameter in common; ask both for the same ones")
-    few = next((result for result in (before, after) if not result.by_run or result.unshown), None)
+    few = next((result for result, side in zip((before, after), sides, strict=True) if not side.judged), None)
     if few is not None:
         raise UnsupportedError(
             f"test {few.test.name!r} has too few runs, or subtracts a reference level: its values have no uncertainty by "
             f"which a change could be judged; repeat the runs and ask without a reference level"
         )
-    joint = difference(_combined(before, common), _combined(after, common))
-    differences = sorted((_difference(before, after, name, joint) for name in common), key=lambda d: d.p_value)
-    return BeforeAfter(before, after, tuple(differences), joint, (_verdict(differences, joint),))
+    differences, joint = differences_of(*sides, names)
+    return BeforeAfter(before, after, differences, joint, (unchanged(differences, joint),))
 
 
-def _combined(result: Identification, names: Sequence[str]) -> Solution:
-    """The named parameters with their combined covariance."""
-    keep = [result.solution.labels.index(name) for name in names]
-    return replace(
-        result.solution,
-        labels=tuple(names),
-        values=result.solution.values[keep],
-        covariance=result.budget.covariance[np.ix_(keep, keep)],
-        degrees_of_freedom=result.budget.degrees_of_freedom[keep],
+@dataclass(frozen=True, slots=True)
+class Determined:
+    """What one test determines, as it is held against another.
+
+    Attributes
+    ----------
+    solution : Solution
+        With the covariance and the degrees of freedom that hold every influence.
+    units : dict of str to str
+    stands_for : dict of str to dict of str to float
+    judged : bool
+        Whether each value has an uncertainty by which a change of it can be judged.
+    """
+
+    solution: Solution
+    units: Mapping[str, str]
+    stands_for: Mapping[str, Mapping[str, float]]
+    judged: bool
+
+
+def determined(result: Identification) -> Determined:
+    """What an identification determines, as it is held against another."""
+    budget = result.budget
+    return Determined(
+        solution=replace(result.solution, covariance=budget.covariance, degrees_of_freedom=budget.degrees_of_freedom),
+        units={p.name: p.unit for p in result.parameters},
+        stands_for={p.name: p.stands_for for p in result.parameters},
+        judged=result.by_run and not result.unshown,
     )
 
 
-def _difference(before: Identification, after: Identification, name: str, joint: Change) -> Difference:
-    one, other = (_combined(result, [name]) for result in (before, after))
+def in_common(before: Determined, after: Determined) -> tuple[str, ...]:
+    """The parameters that both tests determine, standing for the same sum."""
+    one, other = before.stands_for, after.stands_for
+    return tuple(name for name in one if name in other and set(one[name]) == set(other[name]))
+
+
+def differences_of(before: Determined, after: Determined, names: Sequence[str]) -> tuple[tuple[Difference, ...], Change]:
+    """How these parameters changed, the surest first, and all of them together."""
+    joint = difference(_only(before, names), _only(after, names))
+    found = [_difference(before, after, name, joint) for name in names]
+    return tuple(sorted(found, key=lambda d: d.p_value)), joint
+
+
+def unchanged(differences: Sequence[Difference], joint: Change) -> Check:
+    """Whether anything changed: each parameter at a level that allows for their number."""
+    changed = tuple(d.name for d in differences if d.p_value < SIGNIFICANT / len(differences))
+    facts = {"changed": changed, "together": joint.significant, "p_value": joint.p_value}
+    return Check("unchanged", not (changed or joint.significant), facts)
+
+
+def _only(side: Determined, names: Sequence[str]) -> Solution:
+    """The named parameters with their covariance."""
+    found = side.solution
+    keep = [found.labels.index(name) for name in names]
+    return replace(
+        found,
+        labels=tuple(names),
+        values=found.values[keep],
+        covariance=found.covariance[np.ix_(keep, keep)],
+        degrees_of_freedom=found.degrees_of_freedom[keep],
+    )
+
+
+def _difference(before: Determined, after: Determined, name: str, joint: Change) -> Difference:
+    one, other = _only(before, [name]), _only(after, [name])
     change = float(other.values[0] - one.values[0])
     uncertainty = float(np.sqrt(one.covariance[0, 0] + other.covariance[0, 0]))
     return Difference(
         name=name,
-        unit=next(p.unit for p in before.parameters if p.name == name),
+        unit=before.units[name],
         before=float(one.values[0]),
         after=float(other.values[0]),
         change=Estimate(change, uncertainty, float(difference_freedom(one, other)[0])),
         p_value=joint.each[name],
     )
-
-
-def _verdict(differences: Sequence[Difference], joint: Change) -> Check:
-    """Whether anything changed: each parameter at a level that allows for their number."""
-    changed = tuple(d.name for d in differences if d.p_value < SIGNIFICANT / len(differences))
-    facts = {"changed": changed, "together": joint.significant, "p_value": joint.p_value}
-    return Check("unchanged", not (changed or joint.significant), facts)

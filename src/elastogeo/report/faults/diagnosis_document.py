@@ -9,6 +9,7 @@ faults : [{names, meaning, axis, value, unit, standard_uncertainty, distortion_u
 untold : [name], parameters that change no reading of this test
 circularity : [{force_N, centre, g_ccw_um, g_cw_um, g_bidirectional_um, f_max_ccw_um, f_min_ccw_um, f_max_cw_um,
     f_min_cw_um, mean_radial_um, not_determined: [why]}], ISO 230-4 of the measured traces; null where not determined
+joints : `elastogeo.identification/1`, what the faults were ranked from
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from typing import Any
 from elastogeo.identification import Circularity, Diagnosis, Fault, Identification
 from elastogeo.report.document import UM, document, in_um, tested, verdict_entries
 from elastogeo.report.faults.rows import described, distortion_interval
+from elastogeo.report.identification.document import identification_json
 
 DIAGNOSIS_SCHEMA = "elastogeo.diagnosis/1"
 _IN_WORDS = ("centre", "not_determined")
@@ -40,6 +42,7 @@ def diagnosis_json(diagnosis: Diagnosis) -> dict[str, Any]:
             "faults": [_fault(fault, result) for fault in diagnosis.faults],
             "untold": diagnosis.untold,
             "circularity": circularity_entries(diagnosis.circularity),
+            "joints": identification_json(result),
             "verdict": verdict_entries(result.verdict),
         },
     )

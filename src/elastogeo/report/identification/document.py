@@ -30,6 +30,8 @@ parameters : the retained set, [{name, value, unit, standard_uncertainty, interv
     degrees_of_freedom, contribution}], greatest first, `type` "A" or "B", `contribution` the standard uncertainty that
     the influence brings, in `unit`. `truth` is what it stands for truly amounts to, of simulated readings that say so; else
     null.
+correlation : [[r, ...], ...], of the estimates of `parameters`, of each with those before it (the lower triangle without its
+    diagonal), every influence in it; null where `by_run` is false
 null : [name], parameters that change no reading
 confounded : [[name, name, ...]], parameters that always produce the same trace but for its size
 rank, columns : how many combinations are determined, of how many parameters
@@ -74,6 +76,8 @@ from __future__ import annotations
 from math import isnan
 from typing import Any
 
+import numpy as np
+
 from elastogeo.estimate import Confounding, Repeatability
 from elastogeo.identification import (
     AgainstOthers,
@@ -91,6 +95,7 @@ from elastogeo.identification import (
     TestsAgreement,
     VariableCompliance,
 )
+from elastogeo.machine import Array
 from elastogeo.report.document import UM, document, in_um, tested, tested_together, verdict_entries
 from elastogeo.report.identification.collinear import collinear_json
 
@@ -122,6 +127,7 @@ def identification_json(result: Identification) -> dict[str, Any]:
             "tests_agreement": None if result.tests_agreement is None else _agreement(result.tests_agreement),
             "by_run": result.by_run,
             "parameters": [_parameter(result, k, parameter) for k, parameter in enumerate(result.parameters)],
+            "correlation": _correlation(result) if result.by_run else None,
             **confounding_entries(result.confounding),
             "rmse_um": in_um(None if len(angular) == len(result.tests) else result.rmse),
             "levels": [_level(level, separated, level.test in angular) for level in result.levels],
@@ -235,6 +241,15 @@ def _parameter(result: Identification, k: int, parameter: Parameter) -> dict[str
         "truth": parameter.truth,
         "monte_carlo": None if result.agreement is None else _draws(result.agreement, k),
     }
+
+
+def _correlation(result: Identification) -> list[Array]:
+    """Of each parameter with those before it."""
+    covariance = result.budget.covariance
+    deviation = np.sqrt(np.diag(covariance))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        whole = covariance / np.outer(deviation, deviation)
+    return [row[:k] for k, row in enumerate(whole)]
 
 
 def _draws(agreement: Agreement, k: int) -> dict[str, Any]:
