@@ -61,6 +61,7 @@ RECIPES = {
     "A result that shows itself": "elastogeo.report.view",
     "A channel for alarms": "elastogeo.history.alarms.channels.channel",
     "A command, a group of commands": "elastogeo.cli.doors",
+    "A page": "elastogeo.web.pages",
 }
 
 

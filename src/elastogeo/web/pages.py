@@ -1,15 +1,44 @@
-"""How a page comes in: a function, the address at which it shows, and the role that it needs.
+'''A page: a function, the address at which it shows, and the role that it needs.
+
+To add a page, write one file in a wing of pages beside this one (`machines`, `work`, `care`, `people`), and its template in
+the folder of that name below `templates`. It is found by itself: in the addresses, in the OpenAPI, in the tests that every
+page must pass. A complete one, `care/notes.py`::
+
+    """The notes on a machine."""
+
+    from typing import Annotated
+
+    from fastapi import Form
+
+    from elastogeo.report import view_of
+    from elastogeo.web.answering import Done, Shown
+    from elastogeo.web.asking import ENGINEER, Ask
+    from elastogeo.web.pages import Pages
 
     pages = Pages()
 
-    @pages.shows("/machines/{key:int}")
-    def machine(asked: Ask, key: int) -> Shown: ...
 
-    @pages.acts("/machines/{key:int}/events", role=ENGINEER)
-    def add_event(asked: Ask, key: int, note: Annotated[str, Form(max_length=2000)]) -> Done: ...
+    @pages.shows("/machines/{key:int}/notes")
+    def notes(asked: Ask, key: int) -> Shown:
+        machine = asked.machine(key)
+        return Shown("care/notes.html.j2", view_of(asked.history.machine(machine.name)), context={"key": key})
 
-Every page has its JSON and its CSV at the same path; none can be registered without a role.
-"""
+
+    @pages.acts("/machines/{key:int}/notes", role=ENGINEER)
+    def add_note(asked: Ask, key: int, note: Annotated[str, Form(max_length=2000)]) -> Done:
+        asked.history.add_event("note", note, machine=asked.machine(key).name)
+        return Done(f"/machines/{key}/notes", "The note is kept.")
+
+What the contract asks:
+
+* `shows` registers the page and its twins, `.json` and `.csv` at the same path; what is asked is in the query, so that every
+  filter can be kept as a bookmark. The view says all: a page computes nothing and formats no number;
+* `acts` registers a form. It works without JavaScript: the browser is sent on to the next page, which says what was done;
+* `gives` registers a file, `makes` an act that makes its own response;
+* none is registered without a role, and the guard asks for it before the function runs;
+* what is not there raises `NotFound`; any other error of elastogeo becomes one sentence on a page of its own. Nothing that
+  was sent is echoed but what that sentence says.
+'''
 
 from __future__ import annotations
 
