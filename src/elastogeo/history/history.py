@@ -50,6 +50,7 @@ from elastogeo.history.requirements.baselines import Chosen, choose, set_baselin
 from elastogeo.history.requirements.intervals import set_interval
 from elastogeo.history.requirements.tolerances import kind_of, set_tolerance
 from elastogeo.history.store import Store, audit, edition, now, open_store, read
+from elastogeo.history.tasks import Tasks
 from elastogeo.history.upkeep.backups import back_up
 from elastogeo.history.upkeep.exports import export
 from elastogeo.history.upkeep.manifests import Copied
@@ -89,7 +90,7 @@ class Added:
         return self.imported is not None and self.imported.new
 
 
-class History(Records):
+class History(Records, Tasks):
     """Machines and their tests over the years.
 
     Parameters

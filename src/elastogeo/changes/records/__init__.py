@@ -1,7 +1,8 @@
-"""What the store says of itself: what a recomputation found, which plans and campaigns are kept. Filled by `history`."""
+"""What the store says of itself: what a recomputation found, which plans, campaigns, jobs are kept. Filled by `history`."""
 
 from elastogeo.changes.records.audit_trail import TRAIL_WHOLE, AuditFault, AuditRow, AuditTrail, trail_whole
 from elastogeo.changes.records.campaigns import KeptCampaign
+from elastogeo.changes.records.jobs import CANCELLED, DONE, FAILED, RUNNING, WAITING, KeptJob, KeptJobs
 from elastogeo.changes.records.plans import KeptPlan, KeptPlans
 from elastogeo.changes.records.recomputed import SAME_AGAIN, Differing, Recomputed, RecomputedTest, recomputed_same
 from elastogeo.changes.records.verified import (
@@ -25,10 +26,13 @@ from elastogeo.changes.records.verified import (
 )
 
 __all__ = [
+    "CANCELLED",
     "CHANGED",
     "DANGLING",
     "DATABASE_SOUND",
     "DOCUMENTS_WHOLE",
+    "DONE",
+    "FAILED",
     "MISSING",
     "NO_STRAY_FILES",
     "RAW_FILES_WHOLE",
@@ -36,16 +40,20 @@ __all__ = [
     "REFERENCES_WHOLE",
     "RESIZED",
     "ROWS_PROTECTED",
+    "RUNNING",
     "SAME_AGAIN",
     "STRAY",
     "TRAIL_WHOLE",
     "UNPROTECTED",
     "UNREADABLE",
+    "WAITING",
     "AuditFault",
     "AuditRow",
     "AuditTrail",
     "Differing",
     "KeptCampaign",
+    "KeptJob",
+    "KeptJobs",
     "KeptPlan",
     "KeptPlans",
     "Recomputed",

@@ -19,7 +19,7 @@ from elastogeo.history.store.migrations import check_revision, make_filled, upgr
 from elastogeo.history.store.place import Place, place_of
 from elastogeo.history.store.postgresql import server_engine, take_turn
 from elastogeo.history.store.refusals import in_words
-from elastogeo.history.store.sqlite import check_drive, driver, sqlite_engine
+from elastogeo.history.store.sqlite import WAIT, check_drive, driver, sqlite_engine
 
 
 @dataclass(frozen=True, slots=True, weakref_slot=True, eq=False)
@@ -132,15 +132,21 @@ def _prepared(store: Store, create: bool, who: str) -> str | None:
 
 
 @contextmanager
-def write(store: Store) -> Iterator[Connection]:
+def write(store: Store, wait: float = WAIT) -> Iterator[Connection]:
     """A transaction that writes: one writer at a time, all or nothing.
+
+    Parameters
+    ----------
+    store : Store
+    wait : float [s]
+        How long it waits for others.
 
     Raises
     ------
     StoreError
         If another program writes for too long, the disk is full or fails, or the database cannot be reached.
     """
-    with _writing(store) as connection:
+    with _writing(store, wait=wait) as connection:
         yield connection
 
 
@@ -158,12 +164,12 @@ def read(store: Store) -> Iterator[Connection]:
 
 
 @contextmanager
-def _writing(store: Store, migrates: bool = False) -> Iterator[Connection]:
+def _writing(store: Store, migrates: bool = False, wait: float = WAIT) -> Iterator[Connection]:
     with in_words(store.url, writes=True), store.engine.connect() as connection:
-        connection.execution_options(writes=True, migrates=migrates)
+        connection.execution_options(writes=True, migrates=migrates, wait=wait)
         with connection.begin():
             if connection.dialect.name == "postgresql":
-                take_turn(connection)
+                take_turn(connection, wait)
             yield connection
 
 

@@ -17,8 +17,8 @@ def server_engine(server: URL) -> Engine:
     )
 
 
-def take_turn(connection: Connection) -> None:
+def take_turn(connection: Connection, wait: float = WAIT) -> None:
     """Wait for whoever writes, and see what he wrote; what is committed is on the disk, whatever the server's default."""
-    settings = {"lock_timeout": f"{WAIT * 1000:.0f}", "synchronous_commit": "on"}
+    settings = {"lock_timeout": f"{wait * 1000:.0f}", "synchronous_commit": "on"}
     connection.execute(select(*(func.set_config(name, value, True) for name, value in settings.items())))
     connection.execute(select(func.pg_advisory_xact_lock(LOCK)))

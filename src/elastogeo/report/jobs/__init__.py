@@ -1,0 +1,1 @@
+"""Views of long work: one job, and all that a history keeps."""
