@@ -20,6 +20,7 @@ from elastogeo.report.changes.answers import (
 from elastogeo.report.changes.document import change_json
 from elastogeo.report.changes.points import test_said
 from elastogeo.report.changes.rows import cause_table, event_table, indicator_table, resolves_said, test_table
+from elastogeo.report.changes.trend_plot import trend_plot
 from elastogeo.report.changes.words import MARKS, TONES, change_interval_said, change_said, shown_unit, title_of, value_said
 from elastogeo.report.days import date_said, month_said, short_date, simulated_said
 from elastogeo.report.extra import needs_report_extra
@@ -76,6 +77,8 @@ def trend_picture(verdict: ChangeVerdict, one: IndicatorState, name: str = "tren
         f"{title_of(one.name)} over time. {_caption(verdict, one)}",
         f"{title_of(one.name)} of {len(verdict.series)} tests over time.{off}",
         lambda: _drawn("trend_figure", verdict, one),
+        plain=lambda: trend_plot(verdict, one),
+        narrow=lambda: trend_plot(verdict, one, narrow=True),
     )
 
 

@@ -18,6 +18,7 @@ from elastogeo.changes import ALARM, SUSPECT, ChangeVerdict, Event, IndicatorSta
 from elastogeo.report.changes.dates import date_ticks
 from elastogeo.report.changes.events import lettered
 from elastogeo.report.changes.points import ASIDE, BASELINE, UNJUDGED, Point, points_of
+from elastogeo.report.changes.ranges import apart, rows_of_letters, time_shown, values_shown, wall_said, walls_of
 from elastogeo.report.changes.words import change_said, marked, shown_unit, title_of, value_said
 from elastogeo.report.days import short_date
 from elastogeo.report.drawing.style import BLUE, GREY, INK, ORANGE, READABLE, SMALL, multiples
@@ -25,16 +26,12 @@ from elastogeo.report.drawing.style import BLUE, GREY, INK, ORANGE, READABLE, SM
 _HEIGHT = 4.1
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.52, 1.14, 0.36, 0.84
 """Room about the chart [in]: for the values, the words at its right, those above, the dates with the legend."""
-_AHEAD = 0.3
-"""Of the time shown, how far a drift is drawn beyond the last test, at most."""
 _FEW = 60
 """Tests up to which each has a large mark."""
 _LINE = 0.155
 """Height of a line of small letters [in]."""
 _ROWS = 3
 """Of event letters, one below the other, where they would cover each other."""
-_REACH = 0.6
-"""Of the range that the tests take, within which a limit is drawn; one further off is named at the edge."""
 
 
 @dataclass
@@ -72,16 +69,8 @@ def trend_figure(verdict: ChangeVerdict, one: IndicatorState) -> Figure:
 
 
 def _time(chart: _Chart, verdict: ChangeVerdict, one: IndicatorState, points: Sequence[Point]) -> None:
-    """The time that is shown: of all tests, of the events among them, and of the drift that goes on."""
-    at = [point.date for point in points] or [verdict.now]
-    first, last = min(at), max(at)
-    inside = [event.date for event in verdict.events if event.date >= first]
-    last = max([last, *(day for day in inside if day <= verdict.now)])
-    span = max(last - first, 7.0)
-    if one.drift is not None:
-        wanted = one.drift.limit_at_interval[1] if one.drift.limit_at is not None else last
-        last += min(max(wanted - last, 0.12 * span), _AHEAD * span) if isfinite(wanted) else _AHEAD * span
-    chart.ax.set_xlim(first - 0.03 * span, last + 0.03 * span)
+    """The time that is shown."""
+    chart.ax.set_xlim(*time_shown(verdict, one, points))
     ticks = date_ticks(*chart.ax.get_xlim())
     chart.ax.set_xticks(list(ticks), list(ticks.values()))
 
@@ -157,20 +146,9 @@ def _drift(chart: _Chart, one: IndicatorState) -> None:
     chart.handles.append(Line2D([], [], color=ORANGE, linestyle=(0, (5, 2)), linewidth=1.0, label="drift, if it goes on"))
 
 
-def _heights(chart: _Chart, one: IndicatorState, points: Iterable[Point], below: float = 0.2) -> None:
-    """The values that are shown, with room for letters `below`, a share of them; tests set aside far off are at the edge."""
-    stands = [point.value for point in points if isfinite(point.value) and point.mark != ASIDE]
-    every = [*stands, *one.expected[np.isfinite(one.expected)].tolist()]
-    if isfinite(one.mean):
-        every.append(one.mean)
-    every = every or [point.value for point in points if isfinite(point.value)] or [0.0]
-    low, high = min(every) * chart.factor, max(every) * chart.factor
-    span = (high - low) or abs(high) or 1.0
-    for wall in _walls(one):
-        if low - _REACH * span <= wall * chart.factor <= high + _REACH * span:
-            low, high = min(low, wall * chart.factor), max(high, wall * chart.factor)
-    span = (high - low) or abs(high) or 1.0
-    chart.ax.set_ylim(low - below * span, high + 0.07 * span)
+def _heights(chart: _Chart, one: IndicatorState, points: Sequence[Point], below: float = 0.2) -> None:
+    """The values that are shown; tests set aside far off are at the edge."""
+    chart.ax.set_ylim(*(chart.factor * value for value in values_shown(one, points, below)))
     bottom, top = chart.ax.get_ylim()
     for point in points:
         at = point.value * chart.factor
@@ -179,22 +157,15 @@ def _heights(chart: _Chart, one: IndicatorState, points: Iterable[Point], below:
             chart.ax.plot(point.date, edge, shape, color=GREY, clip_on=False, markersize=4)
 
 
-def _walls(one: IndicatorState) -> list[float]:
-    """What the indicator must not pass: its tolerance, and what its drift runs into."""
-    walls = [one.lower, one.upper, *([] if one.drift is None else [one.drift.limit])]
-    return list(dict.fromkeys(wall for wall in walls if isfinite(wall)))
-
-
 def _limits(chart: _Chart, one: IndicatorState) -> None:
     low, high = chart.ax.get_ylim()
-    for wall in _walls(one):
+    for wall in walls_of(one):
         tolerance, at = wall in (one.lower, one.upper), wall * chart.factor
-        name = "tolerance" if tolerance else "matters from"
         inside = low < at < high
         if inside:
             chart.ax.axhline(at, color=INK, linewidth=0.9, linestyle=(0, (4, 2)) if tolerance else (0, (1, 2)), zorder=1)
         arrow = "" if inside else " ↑" if at >= high else " ↓"
-        chart.words.append((min(max(at, low), high), f"{name} {value_said(one, wall)}{arrow}", INK))
+        chart.words.append((min(max(at, low), high), f"{wall_said(one, wall)} {value_said(one, wall)}{arrow}", INK))
 
 
 def _baseline(chart: _Chart, points: Iterable[Point]) -> None:
@@ -228,20 +199,16 @@ def _since(chart: _Chart, one: IndicatorState, verdict: ChangeVerdict) -> None:
 def _events(chart: _Chart, events: tuple[Event, ...]) -> None:
     """A letter for each event that lies in the time shown, one below the other where they would cover each other."""
     left, right = chart.ax.get_xlim()
-    apart = 0.2 / (READABLE - _LEFT - _RIGHT) * (right - left)
-    last = [-np.inf] * _ROWS
+    apart_by = 0.2 / (READABLE - _LEFT - _RIGHT) * (right - left)
     above = chart.ax.get_xaxis_transform()
-    for name, event in lettered(events).items():
-        if not left <= event.date <= right:
-            continue
-        chart.ax.axvline(event.date, color=GREY, linewidth=0.7, linestyle=(0, (1, 2)), zorder=0)
-        row = next((k for k in range(_ROWS) if event.date - last[k] >= apart), None)
+    shown = {name: event.date for name, event in lettered(events).items() if left <= event.date <= right}
+    for (name, day), row in zip(shown.items(), rows_of_letters(shown.values(), apart_by, _ROWS), strict=True):
+        chart.ax.axvline(day, color=GREY, linewidth=0.7, linestyle=(0, (1, 2)), zorder=0)
         if row is None:
             continue
-        last[row] = event.date
         ground = {"boxstyle": "circle,pad=0.2", "facecolor": GREY, "edgecolor": "none"}
         style: Any = {"fontsize": 6.5, "color": "white", "ha": "center", "va": "center", "zorder": 6, "bbox": ground}
-        chart.ax.text(event.date, 0.035 + 0.062 * row, name, transform=above, **style)
+        chart.ax.text(day, 0.035 + 0.062 * row, name, transform=above, **style)
 
 
 def _words(chart: _Chart) -> None:
@@ -249,23 +216,9 @@ def _words(chart: _Chart) -> None:
     low, high = chart.ax.get_ylim()
     tall = (_HEIGHT - _TOP - _BOTTOM) / _LINE
     wanted = sorted(((at - low) / (high - low) * tall, text, colour) for at, text, colour in chart.words)
-    for place, (_, text, colour) in zip(_apart([at for at, _, _ in wanted]), wanted, strict=True):
+    for place, (_, text, colour) in zip(apart([at for at, _, _ in wanted]), wanted, strict=True):
         at = (1.02, place / tall)
         chart.ax.text(*at, text, color=colour, fontsize=SMALL, va="center", ha="left", transform=chart.ax.transAxes)
-
-
-def _apart(wanted: Sequence[float]) -> list[float]:
-    """Places at least one line from each other, as near to those that are wanted as may be; they come in order."""
-    placed: list[list[float]] = []
-    for at in wanted:
-        placed.append([at])
-        while len(placed) > 1 and _middle(placed[-1]) - _middle(placed[-2]) < (len(placed[-1]) + len(placed[-2])) / 2:
-            placed[-2:] = [placed[-2] + placed[-1]]
-    return [_middle(group) + k - (len(group) - 1) / 2 for group in placed for k in range(len(group))]
-
-
-def _middle(group: Sequence[float]) -> float:
-    return sum(group) / len(group)
 
 
 def every_figure(verdict: ChangeVerdict) -> Figure:

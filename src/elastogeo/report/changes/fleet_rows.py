@@ -96,6 +96,8 @@ def fleet_table(fleet: FleetState) -> Table:
         words=(0, 1, 2, 3, 4, 5, 6, 7),
         title="The worst first",
         note=" ".join(filter(None, (f"Indicators: {marks}.", f"{left} more machines are in the JSON." if left > 0 else ""))),
+        name="machines",
+        keys=tuple(row.key if row.key is not None else row.machine for row in fleet.machines[:MOST_ROWS]),
     )
 
 
@@ -117,4 +119,4 @@ def move_table(fleet: FleetState) -> Table | None:
         for move in fleet.instruments
     )
     headings = ("instrument", "since", "indicators", "machines that moved alike", "that did not")
-    return Table(headings, rows, words=(0, 1, 2, 3, 4), title="Instruments") if rows else None
+    return Table(headings, rows, words=(0, 1, 2, 3, 4), title="Instruments", name="instruments") if rows else None

@@ -75,8 +75,9 @@ def series_table(machine: MachineState) -> Table:
         )
         for verdict in machine.series
     )
+    names = tuple(series_said(verdict) for verdict in machine.series)
     headings = ("series", "state", "since", "", "tests", "last test", "next due")
-    return Table(headings, rows, words=(0, 1, 2, 3, 5, 6), title="The worst first")
+    return Table(headings, rows, words=(0, 1, 2, 3, 5, 6), title="The worst first", name="series", keys=names)
 
 
 def machine_json(machine: MachineState) -> dict[str, Any]:

@@ -11,15 +11,16 @@ from elastogeo.changes import ALARM, SUSPECT, ChangeVerdict, IndicatorState
 from elastogeo.report.changes.answers import component_said
 from elastogeo.report.changes.events import event_said, lettered
 from elastogeo.report.changes.points import ASIDE, BASELINE, QUIET, Point, points_of
+from elastogeo.report.changes.trend_plot import spark_plot
 from elastogeo.report.changes.words import (
     MARKS,
     change_interval_said,
     change_said,
     marked,
+    off_said,
     shown_unit,
     size_said,
     title_of,
-    to_place_of,
     value_said,
 )
 from elastogeo.report.days import date_said, short_date
@@ -43,6 +44,9 @@ def indicator_table(verdict: ChangeVerdict) -> Table:
         title="All indicators against the baseline" if verdict.baseline is not None else "All indicators",
         note=_note_of_indicators(verdict),
         strong=strong,
+        name="indicators",
+        keys=tuple(one.name for one in verdict.indicators),
+        sparks=tuple(spark_plot(verdict, one) for one in verdict.indicators),
     )
 
 
@@ -82,6 +86,8 @@ def test_table(verdict: ChangeVerdict, one: IndicatorState) -> Table:
         rows,
         words=(0, 1, 5, 6, 7),
         note=f"{left} older tests are in the JSON." if left > 0 else "",
+        name="tests",
+        keys=tuple(point.test for point in points[:MOST_TESTS]),
     )
 
 
@@ -91,19 +97,12 @@ def _test_row(one: IndicatorState, point: Point, instrument: str) -> tuple[str, 
         short_date(point.date),
         point.test,
         value_said(one, point.value) if isfinite(point.value) else "not determined",
-        _off(one, off) if isfinite(off) and point.mark != BASELINE else "",
+        off_said(one, off) if isfinite(off) and point.mark != BASELINE else "",
         f"{point.temperature:.1f}" if isfinite(point.temperature) else "",
         instrument,
         _mark_said(point.mark),
         point.why,
     )
-
-
-def _off(one: IndicatorState, off: float) -> str:
-    share = one.kind.relative and one.mean
-    size = 100 * off / abs(one.mean) if share else off * shown_unit(one.kind.unit).factor
-    step = 100 * one.deviation / abs(one.mean) if share else one.deviation * shown_unit(one.kind.unit).factor
-    return f"{to_place_of(size, step)}{' %' if share else ''}"
 
 
 def _mark_said(mark: str) -> str:
@@ -114,7 +113,7 @@ def _mark_said(mark: str) -> str:
 def event_table(verdict: ChangeVerdict) -> Table | None:
     """The events by their letters, the newest first; none where nothing happened."""
     rows = tuple((name, date_said(event.date), event_said(event)) for name, event in lettered(verdict.events).items())
-    return Table(("", "date", "what happened"), rows[::-1], words=(0, 1, 2)) if rows else None
+    return Table(("", "date", "what happened"), rows[::-1], words=(0, 1, 2), name="events") if rows else None
 
 
 def cause_table(verdict: ChangeVerdict) -> Table | None:
@@ -126,6 +125,7 @@ def cause_table(verdict: ChangeVerdict) -> Table | None:
             rows,
             words=(0, 3, 4, 5),
             note="How likely each component is among those listed, and how much of the changes it explains.",
+            name="causes",
         )
         if rows
         else None

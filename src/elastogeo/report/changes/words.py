@@ -81,6 +81,14 @@ def change_interval_said(one: IndicatorState, signed: bool = True) -> str:
     return f"{to_place_of(low * factor, step)} to {to_place_of(high * factor, step)} {unit}"
 
 
+def off_said(one: IndicatorState, off: float) -> str:
+    """By how much one test is off, with its sign: `−3.5 %`, `+0.42`, to the place that the scatter between tests needs."""
+    factor, unit = _scale(one)
+    said = to_place_of(off * factor, one.deviation * factor)
+    sign = "+" if off > 0 and any(digit in said for digit in "123456789") else ""
+    return f"{sign}{said}{' %' if unit == '%' else ''}"
+
+
 def predicate(one: IndicatorState) -> str:
     """What a change makes of the machine: `is 11 % softer in X`, `has 2.1 µm more backlash in Y`."""
     return changed(one.name, one.kind.name, one.change, " ".join(_size(one, one.change)))
