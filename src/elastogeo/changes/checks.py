@@ -14,14 +14,13 @@ from elastogeo.changes.drifts import YEAR
 from elastogeo.changes.priors import Prior, default_prior
 from elastogeo.changes.references import Reference
 from elastogeo.changes.replay import Replay
-from elastogeo.changes.result import ALARM, SUSPECT, IndicatorState
+from elastogeo.changes.result import ALARM, CONFIRMED, SUSPECT, IndicatorState
 from elastogeo.changes.rules import Rule
 from elastogeo.changes.series import Baseline, Series
 from elastogeo.identification import Check
 from elastogeo.machine import Array
 
 UNCHANGED = "machine unchanged"
-CONFIRMED = "change confirmed"
 EXPLAINED = "change explained by one component"
 TOLERATED = "within tolerance"
 LONG_ENOUGH = "baseline long enough"

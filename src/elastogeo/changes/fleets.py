@@ -80,6 +80,10 @@ class MachineRow(Part):
     grace : float [d]
         How long after it is due a test still comes in time.
     open_alarms : int
+    confirmed : bool
+        Whether a second test shows the change as well.
+    tests_since : int
+        Judged tests that stand since the change; 0 where none is known.
     """
 
     machine: str
@@ -105,6 +109,8 @@ class MachineRow(Part):
     key: int | None = None
     grace: float = 0.0
     open_alarms: int = 0
+    confirmed: bool = False
+    tests_since: int = 0
 
     def document(self) -> dict[str, Any]:
         """As plain values, to be kept as JSON; NaN is None."""
@@ -205,6 +211,8 @@ def machine_row(verdict: ChangeVerdict, machine: str = "", place: str = "") -> M
         simulated=verdict.series.simulated,
         grace=due.grace if due else 0.0,
         open_alarms=int(verdict.alarm is not None),
+        confirmed=verdict.is_confirmed,
+        tests_since=_tests_since(verdict),
     )
 
 
@@ -260,6 +268,11 @@ def _shown(verdict: ChangeVerdict) -> IndicatorState | None:
     states = [state for state in (ALARM, SUSPECT) if any(one.state == state for one in verdict.indicators)]
     chosen = [one for one in verdict.indicators if (one.state in states[:1]) or (not states and one.drift is not None)]
     return max(chosen, key=_ratio, default=None)
+
+
+def _tests_since(verdict: ChangeVerdict) -> int:
+    point = verdict.change_point
+    return 0 if point is None else sum(not step.replaced and step.date >= point.date for step in verdict.steps)
 
 
 def _ratio(one: IndicatorState) -> float:

@@ -15,6 +15,8 @@ from elastogeo.identification import Check
 from elastogeo.machine import Array
 from elastogeo.result import Part, Result
 
+CONFIRMED = "change confirmed"
+"""Check of an alarm: whether a second test shows the change as well."""
 NO_BASELINE = "no baseline"
 STEADY = "steady"
 WATCH = "watch"
@@ -212,6 +214,12 @@ class ChangeVerdict(Result):
 
     def _absent(self, name: str) -> IndicatorState:
         raise KeyError(f"{name!r} is no indicator of this series; it has {', '.join(self.series.indicators)}")
+
+    @property
+    def is_confirmed(self) -> bool:
+        """Whether a second test shows the change as well."""
+        told = [check.passed for check in self.verdict if check.name == CONFIRMED]
+        return bool(told[0]) if told else any(step.confirmed for step in self.steps)
 
     @property
     def changed(self) -> tuple[IndicatorState, ...]:

@@ -390,8 +390,8 @@ class History(Records, Tasks):
         """End an alarm: as repaired, so that a new baseline follows, or as false, so that the old one stays."""
         return alarms.close(self.store, number, repaired, self.who, why)
 
-    def silence(self, machine: str, until: datetime, why: str) -> None:
-        """Send nothing of a machine until then; what is held back is sent afterwards."""
+    def silence(self, machine: str, until: datetime | None, why: str) -> None:
+        """Send nothing of a machine until then, None: until now; what is held back is sent afterwards."""
         alarms.silence_machine(self.store, machine, until, self.who, why)
 
     def deliver(self) -> Delivery:

@@ -155,6 +155,35 @@ def test_without_a_repeat_the_alarm_comes_by_itself_after_the_wait_and_once(mach
     assert not row.confirmed
 
 
+def test_a_second_test_that_is_no_repeat_confirms_and_the_list_says_what_the_series_says(machine: Machine) -> None:
+    """Two different indicators over their limits in two tests confirm nothing; the same one on the same side does."""
+    machine.test(loss=20.0)
+    machine.clock.advance(days=1)
+    first = machine.test(squareness=60.0)
+    assert (first.state, first.is_confirmed) == (SUSPECT, False)
+    machine.clock.advance(days=1)
+    second = machine.test(squareness=60.0)
+    assert (second.state, second.is_confirmed) == (ALARM, True)
+    with read(machine.store) as connection:
+        (row,) = standing(connection, machine.clock.time).alarms
+    assert row.confirmed
+
+
+def test_an_alarm_that_a_later_test_confirms_is_listed_as_confirmed(machine: Machine) -> None:
+    """Nobody repeated the suspect test in time; weeks later the next test shows the same, no larger."""
+    machine.test(loss=20.0)
+    machine.clock.advance(days=9)
+    (late,) = assess_waiting(machine.store)
+    assert not late.is_confirmed
+    machine.month()
+    verdict = machine.test(loss=20.0)
+    assert verdict.is_confirmed
+    assert [state for _, state in steps(machine.store)] == ["open"], "it is no worse, so it takes no step"
+    with read(machine.store) as connection:
+        (row,) = standing(connection, machine.clock.time).alarms
+    assert row.confirmed
+
+
 def test_three_years_of_old_tests_open_an_alarm_and_tell_nobody(store: Store, standing_clock: Any) -> None:
     add_log(store)
     made = Machine(store, standing_clock)

@@ -42,6 +42,32 @@ def test_a_channel_takes_its_sample_and_refuses_what_is_no_address(made: Channel
             made.check(wrong, {})
 
 
+@pytest.mark.parametrize(
+    ("name", "address"),
+    [
+        ("mail", ".anna@example.com"), ("mail", "anna.@example.com"), ("mail", "an..na@example.com"), ("mail", "a@b-.de"),
+        ("mail", "anna@192.0.2.4"), ("mail", "anna@example.123"), ("mail", "anna@example.com.", ), ("mail", "a@b.de,c@d.de"),
+        ("webhook", "https://localhost/alarms"), ("webhook", "https://127.0.0.1/"), ("webhook", "https://[::1]/"),
+        ("webhook", "https://10.0.0.3/x"), ("webhook", "https://256.256.256.256/"), ("webhook", "https://-a.de/"),
+        ("webhook", "https://0x7f.1/"), ("webhook", "https://a..example.com/"),
+        ("log", "/tmp/"), ("log", "/tmp/a\n"), ("log", "/dev/full"), ("log", f"/tmp/{'x' * 300}"),
+    ],
+)  # fmt: skip
+def test_who_can_never_be_told_is_refused_when_he_is_entered(name: str, address: str) -> None:
+    with pytest.raises(InputError, match=r"give|name|correct"):
+        channel(name).check(address, {})
+
+
+@pytest.mark.parametrize("address", ["o'hara+alarms@mail.example.co.uk", "root@printer", "a_b@x--y.example"])
+def test_unusual_mail_addresses_are_taken(address: str) -> None:
+    channel("mail").check(address, {})
+
+
+def test_a_server_in_the_house_is_taken_where_the_environment_allows_it() -> None:
+    for address in ("http://10.0.0.3/x", "https://localhost:8443/x", "https://[fd00::1]/x"):
+        channel("webhook").check(address, {"ELASTOGEO_WEBHOOK_PRIVATE": "yes"})
+
+
 def test_the_recipe_is_complete(tmp_path: Path) -> None:
     recipe = (
         str(sys.modules[channel.__module__].__doc__).split("`channels/toy.py`::\n")[1].split("\nWhat the contract asks")[0]

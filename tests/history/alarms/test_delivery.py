@@ -24,7 +24,7 @@ from elastogeo.history.alarms.life import Step
 from elastogeo.history.alarms.open_ones import rows_of, standing
 from elastogeo.history.alarms.outbox import post
 from elastogeo.history.alarms.rows import open_alarms, open_one, take
-from elastogeo.history.alarms.silences import silence_machine
+from elastogeo.history.alarms.silences import silence_machine, silent_until
 from elastogeo.history.store import Store, audit, now, open_store, read, write
 from elastogeo.history.store.schema import audit as trail
 from elastogeo.history.store.schema import outbox
@@ -214,7 +214,7 @@ def test_what_was_said_last_of_a_silence_counts(store: Store, box: Box, standing
     add_log(store, "anywhere", by="box")
     series = make_series(store)
     silence_machine(store, "C50 no. 3", standing_clock.time + 10 * DAY, "A. Miller", "taken apart")
-    silence_machine(store, "C50 no. 3", standing_clock.time, "A. Miller", "runs again")
+    silence_machine(store, "C50 no. 3", None, "A. Miller", "runs again")
     open_alarm_of(store, series)
     deliver(store, {})
     assert len(box.sent) == 1
@@ -236,6 +236,17 @@ def test_a_silence_needs_a_machine_a_reason_and_a_zone(store: Store) -> None:
         silence_machine(store, "C50 no. 3", START, "A. Miller", " ")
     with pytest.raises(InputError, match="has no time zone"):
         silence_machine(store, "C50 no. 3", START.replace(tzinfo=None), "A. Miller", "why not")
+
+
+def test_a_silence_until_a_day_that_is_past_is_refused(store: Store, standing_clock: Any) -> None:
+    """Whoever mistypes the year must not think that the machine is silent, nor end a silence by it."""
+    make_series(store)
+    silence_machine(store, "C50 no. 3", standing_clock.time + 10 * DAY, "A. Miller", "taken apart")
+    for past in (standing_clock.time, standing_clock.time - 365 * DAY):
+        with pytest.raises(InputError, match=rf"{past:%Y-%m-%d %H:%M} UTC is past; give a day to come, or now"):
+            silence_machine(store, "C50 no. 3", past, "A. Miller", "taken apart")
+    with read(store) as connection:
+        assert list(silent_until(connection, standing_clock.time).values()) == [standing_clock.time + 10 * DAY]
 
 
 # acknowledge, close

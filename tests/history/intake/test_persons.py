@@ -42,6 +42,16 @@ def trail(store) -> list[tuple[str, str, str]]:
         return [tuple(row) for row in connection.execute(select(table.c.what, table.c.subject, table.c.why))]
 
 
+def test_a_machine_whose_name_people_do_not_tell_from_another_is_refused(store):
+    for alike in ("mill 3", "MILL 3", "Mill  3", "\N{FULLWIDTH LATIN CAPITAL LETTER M}ill 3"):
+        with pytest.raises(InputError, match=r"is 'Mill 3' but for letters or blanks; use that name"):
+            add_machine(store, alike, who=WHO)
+    assert add_machine(store, "Mill 3", who=WHO, place="hall 2").place == "hall 2"
+    assert add_machine(store, "Mill 33", who=WHO).name == "Mill 33"
+    with read(store) as connection:
+        assert [one.name for one in machines(connection)] == ["Mill 3", "Mill 33"]
+
+
 def test_a_test_is_set_aside_and_taken_back(store, tmp_path):
     (one, _), _ = brought(store, tmp_path, "2026-02-01", "2026-02-02")
     assert set_test_aside(store, one, who=WHO, why="ball not seated").aside

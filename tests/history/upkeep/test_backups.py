@@ -13,7 +13,7 @@ from sqlalchemy import func, insert, select
 from elastogeo.errors import StoreError
 from elastogeo.history.store import Store, audit, now, open_store, read, write
 from elastogeo.history.store.schema import blob, machine
-from elastogeo.history.upkeep import back_up, restore, verify
+from elastogeo.history.upkeep import back_up, export, restore, verify
 from tests.history.upkeep.stores import raw, rows
 
 Place = dict[str, str]
@@ -99,3 +99,15 @@ def test_what_cannot_be_backed_up_is_named_and_what_can_is_told(full: Store, tmp
     with pytest.raises(StoreError, match=f"{sha256}: is missing; put it back from a backup"):
         back_up(full, tmp_path / "second")
     assert not [path for path in tmp_path.iterdir() if path.name.startswith("second")]
+
+
+@pytest.mark.parametrize("kind", ["truncate", "postgresql"])
+@pytest.mark.parametrize("copy", [back_up, export])
+def test_a_copy_among_the_raw_files_is_refused(full: Store, tmp_path: Path, copy: Callable[[Store, Path], object]) -> None:
+    """There the next check would call it stray, and a sweep could clear it."""
+    before = sorted(full.files.folder.rglob("*"))
+    (tmp_path / "link").symlink_to(full.files.folder)
+    for target in (full.files.folder / "backup", full.files.folder / "ab" / ".." / "backup", tmp_path / "link" / "backup"):
+        with pytest.raises(StoreError, match=r"among the raw files of the history; name a folder outside of it"):
+            copy(full, target)
+    assert sorted(full.files.folder.rglob("*")) == before

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from elastogeo.changes.fleets import MachineRow
 from elastogeo.changes.result import ChangeVerdict
 from elastogeo.result import Part, Result
 
@@ -26,7 +27,7 @@ class AlarmRow(Part):
     over : mapping of str to float
         By indicator, how many limits it was away from the baseline at most, as far as its steps say.
     confirmed : bool
-        Whether a repeat confirmed it.
+        Whether a second test shows the change as well.
     who, why : str
         Of the person's last step; empty without one.
     at : float [d]
@@ -37,6 +38,14 @@ class AlarmRow(Part):
         Until when nothing is sent of its machine.
     simulated : str
         From what the tests of its series are simulated; empty if any was measured.
+    place : str
+        Hall or plant of its machine.
+    shown : MachineRow or None
+        What its series shows now, in one row; None of an instrument, and of an alarm that is closed.
+    held_by : int or None
+        Number of the alarm of the instrument that holds it back.
+    machine_key, series_key, instrument_key : int or None
+        In its history.
     """
 
     number: int
@@ -53,6 +62,12 @@ class AlarmRow(Part):
     holds: tuple[str, ...] = ()
     silent_until: float | None = None
     simulated: str = ""
+    place: str = ""
+    shown: MachineRow | None = None
+    held_by: int | None = None
+    machine_key: int | None = None
+    series_key: int | None = None
+    instrument_key: int | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

@@ -93,10 +93,8 @@ def found_of(verdict: ChangeVerdict) -> Found:
     if verdict.now <= last.date + Rule().wait:
         there = {} if before is None else _ratios(verdict, before.test, single=True)
         sure = {name: min(ratio, there.get(name, 0.0)) for name, ratio in size.items()}
-    again = before is not None and bool(set(last.over) & set(before.over))
-    confirmed = again or any(step.confirmed for step in verdict.steps if step.date > cleared)
     over, test = _ratios(verdict, last.test), int(last.test)
-    return Found(verdict.state == ALARM, over, size, sure, test, instant(last.date), confirmed)
+    return Found(verdict.state == ALARM, over, size, sure, test, instant(last.date), verdict.is_confirmed)
 
 
 def _ratios(verdict: ChangeVerdict, test: str, single: bool = False) -> dict[str, float]:

@@ -63,7 +63,7 @@ class Found:
     measured : datetime or None
         When that was made.
     confirmed : bool
-        Whether a repeat confirmed it.
+        Whether a second test shows the change as well.
     """
 
     alarming: bool

@@ -7,7 +7,7 @@ from datetime import datetime, timedelta
 
 from sqlalchemy import Connection, select
 
-from elastogeo.changes import due_after, due_on
+from elastogeo.changes import MachineRow, due_after, due_on
 from elastogeo.changes.alarms import ACKNOWLEDGED, HELD, OPEN, AlarmList, AlarmRow, FailedRow, OverdueRow
 from elastogeo.history.alarms.addresses import shown
 from elastogeo.history.alarms.life import is_acknowledged, recorded
@@ -44,8 +44,16 @@ def rows_of(connection: Connection, kept: Iterable[Kept], at: datetime) -> tuple
     named = {
         row.id: row
         for row in connection.execute(
-            select(series.c.id, series.c.name, series.c.machine, machine.c.name.label("of"))
+            select(
+                series.c.id,
+                series.c.name,
+                series.c.machine,
+                machine.c.name.label("of"),
+                machine.c.place,
+                series_state.c.verdict,
+            )
             .join(machine, machine.c.id == series.c.machine)
+            .outerjoin(series_state, series_state.c.series == series.c.id)
             .where(series.c.id.in_([one.series for one in kept if one.series is not None]))
         )
     }
@@ -55,6 +63,8 @@ def rows_of(connection: Connection, kept: Iterable[Kept], at: datetime) -> tuple
     for one in kept:
         own = named.get(one.series) if one.series is not None else None
         until = silent.get(own.machine) if own is not None else None
+        shown = MachineRow.of_document(own.verdict["row"]) if own is not None and own.verdict and one.is_open else None
+        confirmed = any(bool(step.facts.get("confirmed")) for step in one.steps)
         rows.append(
             AlarmRow(
                 number=one.key,
@@ -64,13 +74,19 @@ def rows_of(connection: Connection, kept: Iterable[Kept], at: datetime) -> tuple
                 state=_state(one),
                 opened=days(one.opened),
                 over=recorded(one.steps),
-                confirmed=any(bool(step.facts.get("confirmed")) for step in one.steps),
+                confirmed=confirmed or (shown is not None and shown.confirmed),
                 who=next((step.who for step in reversed(one.steps) if step.who), ""),
                 why=next((step.why for step in reversed(one.steps) if step.who), ""),
                 at=days(one.steps[-1].at or one.opened),
                 holds=_holds(connection, one),
                 silent_until=None if until is None else days(until),
                 simulated=simulated(connection, one.series),
+                place=own.place if own is not None else "",
+                shown=shown,
+                held_by=one.held_by if one.is_held else None,
+                machine_key=own.machine if own is not None else None,
+                series_key=one.series,
+                instrument_key=one.instrument,
             )
         )
     return tuple(rows)

@@ -19,19 +19,22 @@ def silent_until(connection: Connection, at: datetime) -> dict[int, datetime]:
     return {row.machine: row.until for row in rows}
 
 
-def silence_machine(store: Store, name: str, until: datetime, who: str, why: str) -> None:
-    """Send nothing of a machine until then; a time that is past ends a silence.
+def silence_machine(store: Store, name: str, until: datetime | None, who: str, why: str) -> None:
+    """Send nothing of a machine until then; None: send again, now.
 
     Raises
     ------
     InputError
-        If there is no such machine, no reason, or the time has no zone.
+        If there is no such machine, no reason, or the time has no zone or is past.
     """
     if not why.strip():
         raise InputError("a silence needs a reason, for whoever asks why nobody was told; give it with --why")
-    if until.tzinfo is None:
+    if until is not None and until.tzinfo is None:
         raise InputError(f"{until} has no time zone; a silence ends at a point in time")
     with write(store) as connection:
-        key = machine_key(connection, name)
-        connection.execute(insert(silence).values(machine=key, until=until, at=now(), who=who, why=why))
-        audit.record(connection, who, "silence", f"machine {key}", None, until.isoformat(), why)
+        at, key = now(), machine_key(connection, name)
+        if until is not None and until <= at:
+            raise InputError(f"{until:%Y-%m-%d %H:%M %Z} is past; give a day to come, or now to end a silence")
+        end = until or at
+        connection.execute(insert(silence).values(machine=key, until=end, at=at, who=who, why=why))
+        audit.record(connection, who, "silence", f"machine {key}", None, end.isoformat(), why)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from dataclasses import dataclass
 from difflib import get_close_matches
 
@@ -45,7 +46,8 @@ def add_machine(store: Store, name: str, *, who: str, kind: str = "", serial: st
     Raises
     ------
     InputError
-        If the name is empty, or another machine has the serial number.
+        If the name is empty, differs from that of another machine only by case or blanks, or another machine has the serial
+        number.
     """
     name = check_name(name, "a machine")
     said = {"kind": kind.strip(), "serial": serial.strip(), "place": place.strip()}
@@ -54,6 +56,11 @@ def add_machine(store: Store, name: str, *, who: str, kind: str = "", serial: st
         if same and same[0].name != name:
             raise InputError(f"{same[0].name!r} has the serial number {serial!r} already; a number is of one machine")
         known = _where(connection, name=name)
+        alike = [one.name for one in _where(connection) if _folded(one.name) == _folded(name)]
+        if alike and not known:
+            raise InputError(
+                f"{name!r} is {alike[0]!r} but for letters or blanks; use that name, or one that people tell apart"
+            )
         if not known:
             row = {"name": name, **said, "made_at": now()}
             key = connection.execute(insert(machine).values(row).returning(machine.c.id)).scalar_one()
@@ -145,6 +152,11 @@ def check_name(name: str, of: str) -> str:
     if not name or not name.isprintable():
         raise InputError(f"{name!r} is no name for {of}; write letters, digits, blanks")
     return name
+
+
+def _folded(name: str) -> str:
+    """A name without what people do not tell apart: case, width of blanks, the ways to write one letter."""
+    return " ".join(unicodedata.normalize("NFKC", name).casefold().split())
 
 
 def _where(connection: Connection, **known: str) -> list[KnownMachine]:

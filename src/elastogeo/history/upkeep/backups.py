@@ -55,7 +55,7 @@ def back_up(store: Store, folder: str | Path, step: Step = silent) -> Copied:
         wrong = _check(store, verify(store, step))
         return replace(export(store, folder, step), wrong=wrong)
     target = Path(folder)
-    with new_folder(target) as filled, disk_in_words(target), _copy_of(store, step) as copy:
+    with new_folder(target, store.files.folder) as filled, disk_in_words(target), _copy_of(store, step) as copy:
         raw = Files(filled / FILES)
         with open_store(copy, files=filled / FILES) as copied:
             with read(copied) as connection:

@@ -37,7 +37,7 @@ def export(store: Store, folder: str | Path, step: Step = silent) -> Copied:
         If a raw file is missing or damaged, or the folder cannot be written; nothing of it is there then.
     """
     target = Path(folder)
-    with new_folder(target) as filled:
+    with new_folder(target, store.files.folder) as filled:
         with read(store) as connection, disk_in_words(target):
             (filled / TABLES).mkdir()
             tables = {table.name: _written(connection, table, filled, step) for table in metadata.sorted_tables}

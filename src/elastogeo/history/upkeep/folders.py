@@ -20,15 +20,23 @@ _NO_RIGHT = (errno.EACCES, errno.EPERM, errno.EROFS)
 
 
 @contextmanager
-def new_folder(target: Path) -> Iterator[Path]:
+def new_folder(target: Path, apart: Path) -> Iterator[Path]:
     """A folder to fill, which gets its name when it is full and on the disk; what a crash leaves has another name.
+
+    Parameters
+    ----------
+    target : Path
+    apart : Path
+        The folder of the raw files of the history: it holds nothing else.
 
     Raises
     ------
     StoreError
-        If there is something of that name already, or it cannot be written.
+        If there is something of that name already, it would lie among the raw files, or it cannot be written.
     """
     target = target.expanduser().absolute()
+    if target.resolve().is_relative_to(apart.resolve()):
+        raise StoreError(f"{target}: lies in {apart}, among the raw files of the history; name a folder outside of it")
     if target.exists() or target.is_symlink():
         raise StoreError(f"{target}: is there already; name a folder that is not there yet")
     if not target.parent.is_dir():

@@ -116,6 +116,6 @@ def _alarm(row: AlarmRow) -> tuple[str, ...]:
     silent = "" if row.silent_until is None else f"; silent until {date_said(row.silent_until)}"
     what = over_said(row.over) if not row.holds else f"holds back {', '.join(row.holds)}"
     person = f"{row.who}: {row.why}" if row.who else ""
-    confirmed = "" if row.instrument else ("by a repeat" if row.confirmed else "no")
+    confirmed = "" if row.instrument else ("by a second test" if row.confirmed else "no")
     of = f"{of_what(row)} (simulated)" if row.simulated else of_what(row)
     return str(row.number), of, f"{row.state}{silent}", date_said(row.opened), what, confirmed, person

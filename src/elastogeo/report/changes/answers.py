@@ -297,16 +297,10 @@ def _beside(verdict: ChangeVerdict) -> Iterator[str]:
         yield f"Not as {component_said(named[0])} alone would have it: {listed(against)}."
 
 
-def is_confirmed(verdict: ChangeVerdict) -> bool:
-    """Whether a second test shows the change too."""
-    told = [check.passed for check in verdict.verdict if check.name == "change confirmed"]
-    return bool(told[0]) if told else any(step.confirmed for step in verdict.steps)
-
-
 def _after_alarm(verdict: ChangeVerdict) -> str:
     named = points_to(verdict)
     look = f"look at {_either(named)}" if named else "look at the machine"
-    if not is_confirmed(verdict):
+    if not verdict.is_confirmed:
         return f"Repeat the test, since nothing has confirmed the change; then {look}, or close the alarm as false."
     known = verdict.alarm
     if known is not None and known.held_by:

@@ -11,7 +11,6 @@ from elastogeo.estimate import Estimate
 from elastogeo.report.changes.answers import (
     advice,
     cannot_tell,
-    is_confirmed,
     machine_of,
     sentence_of_change,
     series_said,
@@ -65,7 +64,7 @@ def badge(verdict: ChangeVerdict) -> Badge:
     """The state in words and shape, since when, and whether a person knows."""
     since = f" since {date_said(verdict.since)}" if verdict.state in (ALARM, SUSPECT) and verdict.since is not None else ""
     known = "" if verdict.alarm is None else f", {'not ' if verdict.alarm.acknowledged is None else ''}acknowledged"
-    sure = "" if verdict.state != ALARM or is_confirmed(verdict) else ", unconfirmed"
+    sure = "" if verdict.state != ALARM or verdict.is_confirmed else ", unconfirmed"
     return Badge(MARKS[verdict.state], f"{title_of(verdict.state)}{since}{sure}{known}", TONES[verdict.state])
 
 

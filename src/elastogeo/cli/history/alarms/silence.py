@@ -31,14 +31,14 @@ def silence(
     with eg.History(store, who=who) as history:
         history.silence(machine, end, why)
     screen.say(
-        f"{machine} is silent until {end:%Y-%m-%d %H:%M %Z}." if until != "now" else f"{machine} is not silent any more."
+        f"{machine} is not silent any more." if end is None else f"{machine} is silent until {end:%Y-%m-%d %H:%M %Z}."
     )
 
 
-def _end(until: str) -> datetime:
-    """When a silence ends: a day ends at its midnight, where this computer is."""
+def _end(until: str) -> datetime | None:
+    """When a silence ends: a day ends at its midnight, where this computer is; None: now."""
     if until == "now":
-        return datetime.now().astimezone()
+        return None
     try:
         end = datetime.fromisoformat(until)
         if len(until) <= len("2026-12-24"):

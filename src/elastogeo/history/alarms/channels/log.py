@@ -21,10 +21,16 @@ def check(address: str, settings: Settings) -> None:  # noqa: ARG001
     if address == "logging":
         return
     path = Path(address)
-    if not path.is_absolute() or "\0" in address:
+    if not path.is_absolute() or not address.isprintable() or address.endswith(("/", os.sep)):
         raise InputError(f"{address!r} is no full path of a file; give one, as /var/log/alarms.jsonl, or the word logging")
-    if path.is_dir() or not path.parent.is_dir():
-        raise InputError(f"{address}: is a folder, or lies in none that exists; name a file in a folder that does")
+    try:
+        there = path.parent.is_dir() and (path.is_file() or not path.exists())
+    except OSError as error:
+        raise InputError(f"{address[:80]!r} cannot be the name of a file: {error.strerror}; give another") from None
+    if not there:
+        raise InputError(f"{address}: is no file, or lies in no folder that exists; name a file in a folder that does")
+    if not os.access(path if path.exists() else path.parent, os.W_OK):
+        raise InputError(f"{address}: this program may not write there; give another file, or the right to write it")
 
 
 def send(message: Message, address: str, settings: Settings) -> None:  # noqa: ARG001

@@ -16,13 +16,16 @@ from email.utils import format_datetime, localtime
 
 from elastogeo.errors import DeliveryError, InputError
 from elastogeo.history.alarms.channels.channel import Channel, Message, Settings, register
+from elastogeo.history.alarms.channels.hosts import is_host
 
 TIMEOUT = 10.0
 """Seconds for each answer of the server."""
 LONGEST = 200
 """Characters of a subject."""
 
-_ADDRESS = re.compile(r"[A-Za-z0-9.!#$%&'*+/=?^_`{|}~-]{1,64}@[A-Za-z0-9](?:[A-Za-z0-9.-]{0,250}[A-Za-z0-9])?")
+_ATOM = r"[A-Za-z0-9!#$%&'*+/=?^_`{|}~-]+"
+_ADDRESS = re.compile(rf"(?=.{{1,64}}@){_ATOM}(?:\.{_ATOM})*@(.{{1,253}})")
+"""A dot-atom of RFC 5322, 3.2.3, and a host."""
 _SECURITY = ("starttls", "tls", "none")
 
 
@@ -34,11 +37,8 @@ def check(address: str, settings: Settings) -> None:  # noqa: ARG001
 
 def _is_address(text: str) -> bool:
     """Whether it is one plain address of a host that can be looked up."""
-    try:
-        text.rpartition("@")[2].encode("idna")
-    except UnicodeError:
-        return False
-    return _ADDRESS.fullmatch(text) is not None
+    found = _ADDRESS.fullmatch(text)
+    return found is not None and is_host(found[1])
 
 
 def send(message: Message, address: str, settings: Settings) -> None:

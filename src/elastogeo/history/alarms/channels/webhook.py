@@ -20,6 +20,7 @@ from urllib.parse import SplitResult, urlsplit
 
 from elastogeo.errors import DeliveryError, InputError
 from elastogeo.history.alarms.channels.channel import Channel, Message, Settings, register
+from elastogeo.history.alarms.channels.hosts import is_host, is_of_this_computer
 from elastogeo.version import VERSION
 
 TIMEOUT = 10.0
@@ -65,7 +66,6 @@ def _parts(address: str, settings: Settings) -> SplitResult:
     try:
         parts = urlsplit(address)
         port = parts.port
-        (parts.hostname or "").encode("idna")  # as the look-up does, which fails with no error of the network
     except ValueError:
         raise InputError(f"{address!r} is no web address; correct its host or port") from None
     allowed = ("https", "http") if _private_allowed(settings) else ("https",)
@@ -75,9 +75,26 @@ def _parts(address: str, settings: Settings) -> SplitResult:
         )
     if not parts.hostname or port == 0:
         raise InputError("a webhook needs a host: https://example.com/alarms")
+    _check_host(parts.hostname, settings)
     if parts.username is not None or parts.password is not None or parts.fragment:
         raise InputError("a webhook has no user, password or # part; sign it by ELASTOGEO_WEBHOOK_SECRET")
     return parts
+
+
+def _check_host(host: str, settings: Settings) -> None:
+    """Refuse what is known to be out of reach without asking the network."""
+    try:
+        public = is_public(host)
+    except ValueError:  # a name, no address
+        if not is_host(host):
+            raise InputError(
+                f"{host!r} is no web address: no such name can be looked up; correct its host or port"
+            ) from None
+        public = not is_of_this_computer(host)
+    if not public and not _private_allowed(settings):
+        raise InputError(
+            f"{host} is no public address; give one that is, or set ELASTOGEO_WEBHOOK_PRIVATE=yes for a server in the house"
+        )
 
 
 def _private_allowed(settings: Settings) -> bool:
