@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 from elastogeo.errors import StoreError
 
-_EXTRAS = {"sqlalchemy": "history", "alembic": "history", "psycopg": "postgresql"}
+_EXTRAS = {"sqlalchemy": "history", "alembic": "history", "psycopg": "postgresql", "argon2": "web"}
 
 
 class MissingHistoryExtraError(StoreError):

@@ -27,6 +27,7 @@ from elastogeo.changes.alarms import AlarmList, Delivery
 from elastogeo.errors import ElastogeoError, StoreError
 from elastogeo.formats import campaign_parts
 from elastogeo.history import alarms
+from elastogeo.history.access import Access
 from elastogeo.history.alarms.assessing import assess
 from elastogeo.history.alarms.judging import judged
 from elastogeo.history.alarms.states import fleet
@@ -90,7 +91,7 @@ class Added:
         return self.imported is not None and self.imported.new
 
 
-class History(Records, Tasks):
+class History(Records, Access, Tasks):
     """Machines and their tests over the years.
 
     Parameters

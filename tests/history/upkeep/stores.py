@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from typing import Any
 
 from sqlalchemy import Connection, insert
@@ -46,6 +47,17 @@ def rows(store: Store) -> dict[str, list[bytes]]:
     """Every row of every table, as lines."""
     with read(store) as connection:
         return {table.name: list(lines_of(connection, table)) for table in metadata.sorted_tables}
+
+
+def backed_up(store: Store) -> dict[str, list[bytes]]:
+    """Every row of every table, as lines, without sessions."""
+    return rows(store) | {"session": []}
+
+
+def exported(store: Store) -> dict[str, list[bytes]]:
+    """Every row of every table, as lines, without what lets anybody in."""
+    accounts = [json.dumps({**json.loads(line), "password": None}, separators=(",", ":")) for line in rows(store)["account"]]
+    return backed_up(store) | {"token": [], "account": [f"{line}\n".encode() for line in accounts]}
 
 
 def raw(store: Store) -> dict[str, bytes]:

@@ -14,7 +14,7 @@ from elastogeo.errors import StoreError
 from elastogeo.history.store import Store, audit, now, open_store, read, write
 from elastogeo.history.store.schema import blob, machine
 from elastogeo.history.upkeep import back_up, export, restore, verify
-from tests.history.upkeep.stores import raw, rows
+from tests.history.upkeep.stores import backed_up, raw, rows
 
 Place = dict[str, str]
 
@@ -28,7 +28,7 @@ def test_a_backup_comes_back_on_either_database(
     place = place_for(other)
     restore(tmp_path / "backup", **place)
     with opened(place) as restored:
-        assert rows(restored) == rows(full)
+        assert rows(restored) == backed_up(full)
         assert raw(restored) == raw(full)
         assert verify(restored).faults == ()
 
@@ -70,7 +70,7 @@ def test_a_backup_of_sqlite_is_its_database(full: Store, tmp_path: Path) -> None
     assert {path.name for path in (tmp_path / "backup").iterdir()} == {"manifest.json", "history.db", "files"}
     assert json.loads((tmp_path / "backup" / "manifest.json").read_bytes())["content"] == "database"
     with open_store(tmp_path / "backup" / "history.db", files=tmp_path / "backup" / "files") as store:
-        assert rows(store) == rows(full)
+        assert rows(store) == backed_up(full)
 
 
 @pytest.mark.parametrize("kind", ["truncate"])

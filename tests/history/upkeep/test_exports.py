@@ -20,7 +20,7 @@ from elastogeo.history.store.frozen import frozen
 from elastogeo.history.store.schema import FROZEN, alarm, analysis, indicator, machine, metadata
 from elastogeo.history.upkeep import export, restore
 from elastogeo.history.upkeep.manifests import SCHEMA
-from tests.history.upkeep.stores import raw, rows
+from tests.history.upkeep.stores import exported, raw, rows
 
 Place = dict[str, str]
 
@@ -37,9 +37,9 @@ def test_everything_comes_back_bit_for_bit_on_either_database(
     back = restore(tmp_path / "export", **place)
     assert (back.rows, back.files, back.size) == (said.rows, said.files, said.size) == (said.rows, 3, 283)
     assert set(said.rows) == set(metadata.tables)
-    assert all(said.rows.values())
+    assert {name for name, count in said.rows.items() if not count} == {"session", "token"}
     with opened(place) as restored:
-        assert rows(restored) == rows(full)
+        assert rows(restored) == exported(full)
         assert raw(restored) == raw(full)
         with read(restored) as connection:
             assert audit.verify(connection) == ()
@@ -86,7 +86,7 @@ def test_awkward_values_come_back(
         assert list(map(repr, found.scalars())) == [repr(value + 0.0) for value in values]
         kept = connection.execute(select(analysis.c.document, analysis.c.settings).where(analysis.c.id == key)).one()
         assert tuple(kept) == ([document], {"x": document})
-    assert rows(restored) == rows(full)
+    assert rows(restored) == exported(full)
 
 
 def test_awkward_rows_cross_between_databases(
@@ -102,7 +102,7 @@ def test_awkward_rows_cross_between_databases(
     place = place_for("truncate" if kind == "postgresql" else "postgresql")
     restore(tmp_path / "export", **place)
     with opened(place) as restored:
-        assert rows(restored) == rows(full)
+        assert rows(restored) == exported(full)
 
 
 def lines(folder: Path) -> dict[str, list[str]]:

@@ -1,5 +1,6 @@
 """What the store says of itself: what a recomputation found, which plans, campaigns, jobs are kept. Filled by `history`."""
 
+from elastogeo.changes.records.accounts import Account, KeptAccounts, KeptToken, KeptTokens
 from elastogeo.changes.records.audit_trail import TRAIL_WHOLE, AuditFault, AuditRow, AuditTrail, trail_whole
 from elastogeo.changes.records.campaigns import KeptCampaign
 from elastogeo.changes.records.jobs import CANCELLED, DONE, FAILED, RUNNING, WAITING, KeptJob, KeptJobs
@@ -47,15 +48,19 @@ __all__ = [
     "UNPROTECTED",
     "UNREADABLE",
     "WAITING",
+    "Account",
     "AuditFault",
     "AuditRow",
     "AuditTrail",
     "Differing",
+    "KeptAccounts",
     "KeptCampaign",
     "KeptJob",
     "KeptJobs",
     "KeptPlan",
     "KeptPlans",
+    "KeptToken",
+    "KeptTokens",
     "Recomputed",
     "RecomputedTest",
     "StoreFault",

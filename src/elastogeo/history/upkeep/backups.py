@@ -21,6 +21,7 @@ from elastogeo.errors import StoreError
 from elastogeo.history.store import Files, Store, open_store, read
 from elastogeo.history.store.migrations import REVISIONS
 from elastogeo.history.store.schema import blob, metadata
+from elastogeo.history.upkeep.entrances import BACKUP
 from elastogeo.history.upkeep.exports import export
 from elastogeo.history.upkeep.folders import disk_in_words, new_folder, write_file
 from elastogeo.history.upkeep.manifests import AS_DATABASE, DATABASE, FILES, Copied, Manifest, write_manifest
@@ -53,7 +54,7 @@ def back_up(store: Store, folder: str | Path, step: Step = silent) -> Copied:
     """
     if store.engine.dialect.name != "sqlite":
         wrong = _check(store, verify(store, step))
-        return replace(export(store, folder, step), wrong=wrong)
+        return replace(export(store, folder, step, BACKUP), wrong=wrong)
     target = Path(folder)
     with new_folder(target, store.files.folder) as filled, disk_in_words(target), _copy_of(store, step) as copy:
         raw = Files(filled / FILES)
@@ -81,6 +82,10 @@ def _copy_of(store: Store, step: Step) -> Iterator[Path]:
             try:
                 with closing(library.connect(str(copy))) as target:
                     source.backup(target, pages=-1)
+                    target.execute("PRAGMA secure_delete = ON")  # its pages would keep what was in them
+                    for table in sorted(BACKUP.tables):
+                        target.execute(f"DELETE FROM {table}")
+                    target.commit()
             except library.Error as error:
                 raise StoreError(f"{store.url}: could not be copied to {folder}: {error}; name another TMPDIR") from error
         yield copy

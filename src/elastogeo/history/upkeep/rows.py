@@ -11,7 +11,7 @@ import hashlib
 import json
 import math
 from base64 import b64decode, b64encode
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from itertools import islice
 from typing import Any
 
@@ -24,9 +24,9 @@ _AT_ONCE = 500
 """Rows that are read or written together."""
 
 
-def lines_of(connection: Connection, table: Table) -> Iterator[bytes]:
-    """The rows of a table as lines, in the order of their keys."""
-    writers = [_writer(column) for column in table.columns]
+def lines_of(connection: Connection, table: Table, empty: Collection[str] = ()) -> Iterator[bytes]:
+    """The rows of a table as lines, in the order of their keys; the columns `empty` without what is in them."""
+    writers = [_nothing if column.name in empty else _writer(column) for column in table.columns]
     names = [column.name for column in table.columns]
     asked = select(*(_as_kept(column) for column in table.columns)).order_by(*table.primary_key.columns)
     found = connection.execute(asked, execution_options={"yield_per": _AT_ONCE})
@@ -119,6 +119,10 @@ def _kept_type(column: Column[Any]) -> Any:
     for ours, kept in ((Instant, BigInteger), (Document, Text), (Packed, LargeBinary)):
         if isinstance(column.type, ours):
             return kept()
+    return None
+
+
+def _nothing(value: Any) -> None:  # noqa: ARG001
     return None
 
 
