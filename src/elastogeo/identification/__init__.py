@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from elastogeo.identification.change import SIGNIFICANT, Change, difference, local_change, run_dispersion
     from elastogeo.identification.check import Check
     from elastogeo.identification.explanation import Explanation, explain
+    from elastogeo.identification.faults.cause_parts import CauseParts, RunParts, cause_parts, thinned_parts
     from elastogeo.identification.faults.circularity import Circularity, circularity
     from elastogeo.identification.faults.comparison import (
         BeforeAfter,
@@ -141,6 +142,7 @@ __all__ = [
     "Candidate",
     "Cartesian",
     "CartesianCompliance",
+    "CauseParts",
     "Change",
     "Check",
     "Circularity",
@@ -183,6 +185,7 @@ __all__ = [
     "Reciprocity",
     "Response",
     "RigTest",
+    "RunParts",
     "RunSystem",
     "SetupDeflection",
     "Spring",
@@ -215,6 +218,7 @@ __all__ = [
     "cartesian_compliance",
     "cartesian_from_vectors",
     "cartesian_of",
+    "cause_parts",
     "circularity",
     "collinear_stiffness",
     "compare",
@@ -283,6 +287,7 @@ __getattr__ = first_use(
         "change": "Change SIGNIFICANT difference local_change run_dispersion",
         "check": "Check",
         "explanation": "Explanation explain",
+        "faults.cause_parts": "CauseParts RunParts cause_parts thinned_parts",
         "faults.circularity": "Circularity circularity",
         "faults.comparison": "BeforeAfter Determined Difference compare determined differences_of in_common unchanged",
         "faults.diagnosis": "Diagnosis Fault diagnose",

@@ -109,17 +109,33 @@ def level_circularity(result: Identification, traces: Sequence[Trace] | None = N
     traces : sequence of Trace, optional
         Other traces than those measured.
     """
-    runs = {run.name: run for run in result.test.runs}
     radius = result.test.setup.nominal_radius
-    if radius is None or result.test.setup.extra != "circularity":
-        return {}
     found = {}
-    for level in result.levels:
-        paths: dict[int, Path] = {}
-        for trace in traces or result.traces:
-            if trace.force == level.force:
-                paths.setdefault(runs[trace.run].sense, Path(trace.pose, trace.measured))
-        found[level.force] = circularity(radius, paths.get(1), paths.get(-1))
+    for force, by_sense in first_runs(result, traces).items():
+        paths = {sense: Path(trace.pose, trace.measured) for sense, trace in by_sense.items()}
+        assert radius is not None
+        found[force] = circularity(radius, paths.get(1), paths.get(-1))
+    return found
+
+
+def first_runs(result: Identification, traces: Sequence[Trace] | None = None) -> dict[float, dict[int, Trace]]:
+    """The trace of the first run in each direction (1 counter-clockwise, -1 clockwise) by force level [N].
+
+    Empty for what is no ball bar.
+
+    Parameters
+    ----------
+    result : Identification
+    traces : sequence of Trace, optional
+        Other traces than those measured.
+    """
+    if result.test.setup.nominal_radius is None or result.test.setup.extra != "circularity":
+        return {}
+    senses = {run.name: run.sense for run in result.test.runs}
+    found: dict[float, dict[int, Trace]] = {level.force: {} for level in result.levels}
+    for trace in traces or result.traces:
+        if trace.force in found:
+            found[trace.force].setdefault(senses[trace.run], trace)
     return found
 
 
