@@ -90,8 +90,8 @@ def cause_parts(one: Diagnosis | Identification) -> CauseParts:
     return CauseParts(diagnosis, causes, tuple(found), result.test.setup.nominal_radius if found else None)
 
 
-def thinned_parts(run: RunParts, radius: float, many: int, within: float) -> RunParts:
-    """The run with fewer readings, if it has very many and its deviations stay what they are.
+def thinned_parts(parts: CauseParts, many: int, within: float) -> CauseParts:
+    """The same with fewer readings of the runs that have very many, if their deviations stay what they are.
 
     Of each of many short pieces the readings are kept that stand out most from the prediction, outward and inward, and of
     the whole trace the greatest and the least as it is, without each cause and with twice of it: on these the deviations
@@ -99,14 +99,17 @@ def thinned_parts(run: RunParts, radius: float, many: int, within: float) -> Run
 
     Parameters
     ----------
-    run : RunParts
-    radius : float [mm]
-        Nominal radius.
+    parts : CauseParts
     many : int
-        With at most so many readings it is left as it is.
+        With at most so many readings a run is left as it is.
     within : float [mm]
         By how much circular and radial deviation may change.
     """
+    radius = parts.radius
+    return parts if radius is None else replace(parts, runs=tuple(_thinned(run, radius, many, within) for run in parts.runs))
+
+
+def _thinned(run: RunParts, radius: float, many: int, within: float) -> RunParts:
     count, pieces = len(run.angle), many // 2
     if count <= many:
         return run

@@ -24,15 +24,20 @@ from elastogeo.report.document import UM
 
 PLACES = 4
 """To which lengths are rounded for a page: a tenth of a nanometre, far below what is shown."""
-MANY = 500
+_MORE = 2
+"""Places that angles [deg] have more: at 1 m that is the same length."""
+_MANY = 500
 """Readings of a run from which on it is thinned."""
 _SAME = 2e-5
 """By how much [mm] a deviation may change when a run is thinned: less than the last digit that is shown of 10 um."""
-_MORE = 2
-"""Places that angles [deg] have more: at 1 m that is the same length."""
 
 
-def columns_document(parts: CauseParts, places: int | None = PLACES, many: int = MANY) -> dict[str, Any]:
+def for_a_page(parts: CauseParts) -> CauseParts:
+    """As many readings as a page needs to draw a circle and to find its deviations."""
+    return thinned_parts(parts, _MANY, _SAME)
+
+
+def columns_document(parts: CauseParts, places: int | None = PLACES) -> dict[str, Any]:
     """What the sliders of a page compute with, as plain types; without runs for what is no circle.
 
     Parameters
@@ -40,16 +45,12 @@ def columns_document(parts: CauseParts, places: int | None = PLACES, many: int =
     parts : CauseParts
     places : int, optional
         Decimal places of lengths [um]; None keeps every digit.
-    many : int
-        Readings of a run from which on it is thinned.
     """
-    radius = parts.radius
-    runs = () if radius is None else tuple(thinned_parts(run, radius, many, _SAME) for run in parts.runs)
     return {
-        "radius_mm": radius,
+        "radius_mm": parts.radius,
         "resolution_um": 0.0 if places is None else 10.0**-places,
         "causes": [list(cause.names) for cause in parts.causes],
-        "runs": {run.run: _run(run, places) for run in runs},
+        "runs": {run.run: _run(run, places) for run in parts.runs},
     }
 
 
