@@ -266,6 +266,7 @@ __all__ = [
     "static_line",
     "strongest_harmonic",
     "systems_of",
+    "thinned_parts",
     "turning_points",
     "uncertainty_budget",
     "unchanged",

@@ -5,18 +5,25 @@ any view; `drawing` is the ground of all figures. matplotlib, jinja2, typst and 
 only when something is drawn or a page is written.
 """
 
+from typing import TYPE_CHECKING
+
+from elastogeo.discovery import first_use
 from elastogeo.report import showing as _showing  # noqa: F401  the renderer of every result registers itself
 from elastogeo.report.drawing.plot_svg import plot_svg
 from elastogeo.report.drawing.plots import Plot, plot_of
 from elastogeo.report.drawing.svg import svg_of
 from elastogeo.report.extra import MissingExtraError
 from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
-from elastogeo.report.page import csv_of, html_page, pdf_page, save_report
+from elastogeo.report.page import KeptView, csv_of, html_page, kept_view, pdf_page, save_report, view_kept
 from elastogeo.report.sentences import says, sentence_of
 from elastogeo.report.view import KeyValue, Picture, Said, Section, Table, View, view_of, views
 
+if TYPE_CHECKING:
+    from elastogeo.report.faults.cause_document import causes_document
+
 __all__ = [
     "DisplayUnit",
+    "KeptView",
     "KeyValue",
     "MissingExtraError",
     "Picture",
@@ -25,9 +32,11 @@ __all__ = [
     "Section",
     "Table",
     "View",
+    "causes_document",
     "csv_of",
     "display_unit",
     "html_page",
+    "kept_view",
     "pdf_page",
     "plot_of",
     "plot_svg",
@@ -37,6 +46,9 @@ __all__ = [
     "significant",
     "svg_of",
     "value_with_uncertainty",
+    "view_kept",
     "view_of",
     "views",
 ]
+
+__getattr__ = first_use(__name__, {"faults.cause_document": "causes_document"})  # it draws

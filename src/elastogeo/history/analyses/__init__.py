@@ -6,6 +6,7 @@ from elastogeo.discovery import first_use
 
 if TYPE_CHECKING:
     from elastogeo.history.analyses.analysing import PROGRAM, analyse, last_analysis, unanalysed
+    from elastogeo.history.analyses.drawings import draw, drawing_of
     from elastogeo.history.analyses.kept_campaigns import (
         campaign_text,
         campaigns,
@@ -22,6 +23,8 @@ __all__ = [
     "analyse",
     "campaign_text",
     "campaigns",
+    "draw",
+    "drawing_of",
     "due_date",
     "finish_plan",
     "keep_campaign",
@@ -41,6 +44,7 @@ __getattr__ = first_use(
     __name__,
     {
         "analysing": "PROGRAM analyse last_analysis unanalysed",
+        "drawings": "draw drawing_of",
         "kept_campaigns": "campaign_text campaigns keep_campaign keep_parts kept_campaign recompute_campaign",
         "kept_plans": "due_date finish_plan keep_plan plans read_plan",
         "recomputing": "outdated recompute",

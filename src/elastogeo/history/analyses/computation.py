@@ -10,10 +10,10 @@ import hashlib
 import os
 import platform
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import isfinite
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import scipy
@@ -25,6 +25,9 @@ from elastogeo.history.analyses.verbs import SEED, asked_of
 from elastogeo.history.store import Files
 from elastogeo.history.store.columns import canonical
 from elastogeo.report import view_of
+from elastogeo.result import Result
+
+Told = TypeVar("Told")
 
 FAULTS = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError)
 """What a fault of the program raises; all else (memory, disk) says nothing of the test and is not kept."""
@@ -80,24 +83,57 @@ def computed(files: Files, raw: Sequence[RawFile], attempt: int = 1) -> Computed
         If a raw file is missing or damaged. An error of the analysis itself is returned, not raised.
     """
     settings: dict[str, Any] = {"verb": "", "question": {}, "seed": SEED, **({"attempt": attempt} if attempt > 1 else {})}
-    error = ""
+    asked, told, error = ask_again(
+        files, raw, lambda result: (view_of(result), indicators_of(result), signatures_of(result))
+    )
+    settings |= asked
+    whole = settings | {"made_with": made_with()}
+    if told is None:
+        return Computed(whole, inputs_of(raw, settings), None, False, (), None, error)
+    view, found, signatures = told
+    known = tuple(one for one in found if isfinite(one.value))
+    moved = None if signatures is None else signatures.document()
+    return Computed(whole, inputs_of(raw, settings), dict(view.document), view.supported, known, moved, None)
+
+
+def ask_again(
+    files: Files, raw: Sequence[RawFile], take: Callable[[Result], Told]
+) -> tuple[dict[str, Any], Told | None, str]:
+    """Ask a test again, from its raw files, what its verb asks.
+
+    Parameters
+    ----------
+    files : Files
+        Of the store.
+    raw : sequence of RawFile
+    take : callable
+        What is wanted of the result; the files are there while it is asked.
+
+    Returns
+    -------
+    dict
+        The verb and the question, as far as they are known.
+    object or None
+        What was wanted; None after an error.
+    str
+        The error, without paths of this computer; empty if there was none.
+
+    Raises
+    ------
+    StoreError
+        If a raw file is missing or damaged.
+    """
+    settings: dict[str, Any] = {}
     with laid_out(files, raw) as folder:
         try:
             asked = asked_of(folder, [file.path for file in raw])
-            settings |= {"verb": asked.verb, "question": asked.question}
-            result = asked.answer()
-            view, found, signatures = view_of(result), indicators_of(result), signatures_of(result)
+            settings = {"verb": asked.verb, "question": asked.question}
+            return settings, take(asked.answer()), ""
         except ElastogeoError as caught:
             error = str(caught)
         except FAULTS as caught:
             error = f"a fault of elastogeo; report it with this test: {type(caught).__name__}: {caught}"
-        error = error.replace(f"{folder}{os.sep}", "").replace(str(folder), "the test")
-    whole = settings | {"made_with": made_with()}
-    if error:
-        return Computed(whole, inputs_of(raw, settings), None, False, (), None, error)
-    known = tuple(one for one in found if isfinite(one.value))
-    moved = None if signatures is None else signatures.document()
-    return Computed(whole, inputs_of(raw, settings), dict(view.document), view.supported, known, moved, None)
+        return settings, None, error.replace(f"{folder}{os.sep}", "").replace(str(folder), "the test")
 
 
 def inputs_of(raw: Sequence[RawFile], settings: dict[str, Any]) -> str:

@@ -86,7 +86,7 @@ def _polar(runs: Sequence[RunParts], force: float, scale: Scale, axes: Sequence[
 
     def placed(angle: Array, deviation: Array) -> tuple[Place, ...]:
         x, y = around(angle, deviation, scale, len(runs))
-        return tuple((centre[0] + per_mm * a, centre[1] - per_mm * b) for a, b in zip(x, y, strict=True))
+        return tuple(_pixel(centre[0] + per_mm * a, centre[1] - per_mm * b) for a, b in zip(x, y, strict=True))
 
     shapes: list[Shape] = [*_rings(scale, per_mm, centre), *_directions(centre, axes)]
     measured: list[Shape] = []
@@ -107,6 +107,11 @@ def _polar(runs: Sequence[RunParts], force: float, scale: Scale, axes: Sequence[
         radius=per_mm * scale.radius,
         per_um=per_mm * scale.magnification / UM,
     )
+
+
+def _pixel(x: float, y: float) -> Place:
+    """A point to a hundredth of a pixel, so that what is kept stays small."""
+    return round(float(x), 2), round(float(y), 2)
 
 
 def _centred(run: RunParts) -> tuple[Array, Array]:

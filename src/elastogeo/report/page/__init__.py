@@ -3,6 +3,7 @@
 from elastogeo.report.page.csv import csv_of
 from elastogeo.report.page.files import save_report
 from elastogeo.report.page.html import html_page
+from elastogeo.report.page.kept import KeptView, kept_view, view_kept
 from elastogeo.report.page.pdf import pdf_page
 
-__all__ = ["csv_of", "html_page", "pdf_page", "save_report"]
+__all__ = ["KeptView", "csv_of", "html_page", "kept_view", "pdf_page", "save_report", "view_kept"]
