@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from math import atan2, hypot
 
 import numpy as np
 import pytest
 
-from elastogeo.identification import cause_parts
+from elastogeo.formats import read_test
+from elastogeo.identification import cause_parts, diagnose, identify
+from elastogeo.observe import Imperfection, Question
 from elastogeo.report import causes_document, plot_of, plot_svg
 from elastogeo.report.drawing.plots import Line, Mark
+from elastogeo.report.faults.columns import for_a_page
+from elastogeo.sources import simulate
+from tests.history.analyses.kept import EXAMPLES
 
 
 @pytest.fixture(scope="module")
@@ -29,16 +35,20 @@ def test_every_cause_is_a_row_and_the_set_up_is_none(told, separated) -> None:
     assert json.loads(json.dumps(told, allow_nan=False))["columns"] == told["columns"]
 
 
-def test_what_cannot_be_told_apart_is_said_with_the_cause(told, separated) -> None:
-    first = next(cause for cause in told["causes"] if cause["name"] == "C_XXX")
-    others = [name for name in separated["C_XXX"].stands_for if name != "C_XXX"]
+def test_what_cannot_be_told_apart_is_said_with_the_cause(make_test) -> None:
+    test = replace(make_test("wFYXt", (100.0, 400.0), readings=24, repeats=2), question=Question(("loaded-xy",)))
+    result = identify(simulate(test, {"C_XXX": 6e-5, "C_YYY": 5e-5}, Imperfection(noise=7e-5), seed=1))
+    found = causes_document(result)
+    first = next(cause for cause in found["causes"] if cause["names"][0] == "C_XXX")
+    others = [name for name in result["C_XXX"].stands_for if name != "C_XXX"]
     assert others
     assert all(name in first["together"] for name in others)
 
 
-def test_a_drawing_is_true_to_its_scale(told, separated) -> None:
-    parts = cause_parts(separated)
-    polar = told["polars"][0]
+def test_a_drawing_is_true_to_its_scale() -> None:
+    diagnosis = diagnose(read_test(EXAMPLES / "ball-bar-diagnosis"))
+    parts = for_a_page(cause_parts(diagnosis))
+    polar = causes_document(diagnosis)["polars"][0]
     plot = plot_of(polar["plot"])
     lines = [shape for shape in plot.shapes if isinstance(shape, Line) and shape.kind in ("blue", "orange")]
     assert [line.kind for line in lines] == ["blue", "orange"]
