@@ -14,7 +14,8 @@ import pytest
 from elastogeo.identification import diagnose
 from elastogeo.machine import Machine, parse_topology
 from elastogeo.report import MissingExtraError, html_page, save_report, view_of
-from elastogeo.report.drawing.style import force_colours, nice_step, thinned
+from elastogeo.report.drawing.magnified import nice_step, thinned
+from elastogeo.report.drawing.style import force_colours
 from elastogeo.report.drawing.svg import drawn as svg_of
 from elastogeo.report.drawing.svg import inline
 from elastogeo.report.text import parameter_rows

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 
-from elastogeo.changes import KeptCampaign, KeptPlans, Recomputed
+from elastogeo.changes import ComparedTests, KeptCampaign, KeptPlans, Recomputed
 from elastogeo.history.alarms.assessing import assess
 from elastogeo.history.analyses import (
     campaigns,
@@ -19,6 +19,7 @@ from elastogeo.history.analyses import (
     recompute,
     recompute_campaign,
 )
+from elastogeo.history.comparing import compare_tests
 from elastogeo.history.intake.machines import machine_named
 from elastogeo.history.series_of import days
 from elastogeo.history.store import Store, now, read
@@ -51,6 +52,10 @@ class Records:
             If there is no such series, or a later version than this one computed it.
         """
         return recompute(self.store, series, self.who, progress, jobs, judge=partial(assess, self.store))
+
+    def compare(self, one: int, other: int) -> ComparedTests:
+        """Two tests held against each other, the earlier one first: what changed, and whether it is more than scatter."""
+        return compare_tests(self.store, one, other)
 
     def campaigns(self, machine: str | None = None) -> tuple[KeptCampaign, ...]:
         """The campaigns of a machine, or of all, in the order in which they were kept."""

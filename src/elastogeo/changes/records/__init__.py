@@ -3,6 +3,19 @@
 from elastogeo.changes.records.accounts import Account, KeptAccounts, KeptToken, KeptTokens
 from elastogeo.changes.records.audit_trail import TRAIL_WHOLE, AuditFault, AuditRow, AuditTrail, trail_whole
 from elastogeo.changes.records.campaigns import KeptCampaign
+from elastogeo.changes.records.compared import (
+    FEW_RUNS,
+    NOT_ANALYSED,
+    NOTHING_IN_COMMON,
+    OTHER_MACHINE,
+    WITHIN_SCATTER,
+    CircleTrace,
+    ComparedTest,
+    ComparedTests,
+    IndicatorDifference,
+    ParameterDifference,
+    SettingDifference,
+)
 from elastogeo.changes.records.jobs import CANCELLED, DONE, FAILED, RUNNING, WAITING, KeptJob, KeptJobs
 from elastogeo.changes.records.plans import KeptPlan, KeptPlans
 from elastogeo.changes.records.recomputed import SAME_AGAIN, Differing, Recomputed, RecomputedTest, recomputed_same
@@ -34,8 +47,12 @@ __all__ = [
     "DOCUMENTS_WHOLE",
     "DONE",
     "FAILED",
+    "FEW_RUNS",
     "MISSING",
+    "NOTHING_IN_COMMON",
+    "NOT_ANALYSED",
     "NO_STRAY_FILES",
+    "OTHER_MACHINE",
     "RAW_FILES_WHOLE",
     "RECORDS_AGREE",
     "REFERENCES_WHOLE",
@@ -48,11 +65,16 @@ __all__ = [
     "UNPROTECTED",
     "UNREADABLE",
     "WAITING",
+    "WITHIN_SCATTER",
     "Account",
     "AuditFault",
     "AuditRow",
     "AuditTrail",
+    "CircleTrace",
+    "ComparedTest",
+    "ComparedTests",
     "Differing",
+    "IndicatorDifference",
     "KeptAccounts",
     "KeptCampaign",
     "KeptJob",
@@ -61,8 +83,10 @@ __all__ = [
     "KeptPlans",
     "KeptToken",
     "KeptTokens",
+    "ParameterDifference",
     "Recomputed",
     "RecomputedTest",
+    "SettingDifference",
     "StoreFault",
     "Verified",
     "as_written",

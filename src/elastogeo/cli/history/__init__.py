@@ -2,8 +2,9 @@
 
 GROUP = "Keep the tests of machines, and say what has changed."
 ORDER = (
-    "init", "import", "watch", "list", "show", "baseline", "tolerance", "interval", "machine", "instrument", "event",
-    "aside", "campaign", "plan", "recompute", "acknowledge", "close", "silence", "recipient", "deliver", "digest",
-    "account", "token", "export", "backup", "restore", "verify", "audit", "work", "rules", "demo",
+    "init", "import", "watch", "list", "show", "compare", "baseline", "tolerance", "interval", "machine",
+    "instrument", "event", "aside", "campaign", "plan", "recompute", "acknowledge", "close", "silence", "recipient",
+    "deliver", "digest", "account", "token", "export", "backup", "restore", "verify", "audit", "work", "rules",
+    "demo",
 )  # fmt: skip
 """In which the help lists the commands."""

@@ -149,3 +149,13 @@ def the_same_again(facts: Facts, passed: bool | None) -> str:
         f"{facts['differing']} of {facts['compared']} tests differ, first {facts['first']!r} at {facts['path']}: "
         "the program, or what it stands on, is another one under the same version number."
     )
+
+
+@says("within the scatter")
+def within_the_scatter(facts: Facts, passed: bool | None) -> str:
+    """Whether two tests differ by no more than those of an unchanged machine."""
+    count = facts["judged"]
+    if passed:
+        return f"All {count} indicators differ by no more than two tests of the unchanged machine do."
+    names = title_of(listed(name for name, _, _ in facts["beyond"]))
+    return f"{names} differ{'s' if len(facts['beyond']) == 1 else ''} by more than two tests of the unchanged machine do."

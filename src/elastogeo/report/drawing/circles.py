@@ -3,61 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from math import ceil
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from elastogeo.identification import Identification
-from elastogeo.machine import Array
-from elastogeo.report.drawing.style import FAINT, GREY, INK, SMALL, nice_step, thinned
+from elastogeo.report.drawing.magnified import Scale
+from elastogeo.report.drawing.style import FAINT, GREY, INK, SMALL
 from elastogeo.report.text import UM
 
-_OUTWARD, _INWARD = 0.8, 0.6
-"""The greatest deviations are drawn at most at these parts of the nominal radius."""
-_DIVISIONS = 6
 _VALUES_AT = np.radians(67.5)
 """Angle [rad] at which the rings are labelled."""
-_EDGE = 1e-9
 _BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 _SPOKES = ((0, "left", "center"), (90, "center", "bottom"), (180, "right", "center"), (270, "center", "top"))
-
-
-@dataclass(frozen=True, slots=True)
-class Scale:
-    """How deviations are drawn about a nominal circle.
-
-    Attributes
-    ----------
-    radius : float
-        Of the nominal circle, as drawn.
-    magnification : float
-    division : float [mm]
-        Deviation from one ring to the next.
-    inner, outer : int
-        The innermost and outermost ring, counted from the nominal circle.
-    """
-
-    radius: float
-    magnification: float
-    division: float
-    inner: int
-    outer: int
-
-    @property
-    def limit(self) -> float:
-        """Radius that holds all that is drawn."""
-        return self.radius + (self.outer + 0.3) * self.division * self.magnification
-
-
-def scale_for(deviations: Array, radius: float) -> Scale:
-    """The scale at which all deviations [mm] can be seen."""
-    inward, outward = max(-float(deviations.min()), 0.0), max(float(deviations.max()), 0.0)
-    magnification = nice_step(radius / (max(outward / _OUTWARD, inward / _INWARD) or 1.0))
-    division = nice_step((inward + outward or 1.0) / _DIVISIONS * 2)
-    inner, outer = -ceil(inward / division - _EDGE), max(ceil(outward / division - _EDGE), 1)
-    return Scale(radius, magnification, division, inner, outer)
 
 
 def rings(ax: Axes, scale: Scale, axes: Sequence[str] = (), values: bool = False) -> None:
@@ -97,35 +55,6 @@ def spokes(ax: Axes, radius: float, axes: Sequence[str] = ()) -> None:
         x, y = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
         ax.plot([0, radius * x], [0, radius * y], color=FAINT, linewidth=0.6, zorder=0)
         ax.text(1.03 * radius * x, 1.03 * radius * y, name, ha=ha, va=va, fontsize=SMALL, color=GREY)
-
-
-def centre_part(angle: Array, deviation: Array, at: Array) -> Array:
-    """The part of a trace that an offset of the circle's centre makes: least squares, orders 0 and 1; of order 1 only.
-
-    Parameters
-    ----------
-    angle, deviation : array, shape (m,) [rad], [mm]
-    at : array, shape (k,) [rad]
-        Where it is wanted.
-
-    Returns
-    -------
-    array, shape (k,) [mm]
-        To subtract from the trace, as ball-bar software does before it draws one.
-    """
-    first = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle)])
-    fitted = np.linalg.lstsq(first, deviation, rcond=None)[0]
-    return np.asarray(fitted[1] * np.cos(at) + fitted[2] * np.sin(at))
-
-
-def around(angle: Array, deviation: Array, scale: Scale, traces: int) -> tuple[Array, Array]:
-    """Nominal circle plus magnified deviation, as points of the plane; the gap of a full turn is closed."""
-    angle, deviation = thinned(angle, deviation, traces)
-    gap = 2 * np.pi - float(np.ptp(angle))
-    if 0 < gap < 3 * 2 * np.pi / len(angle):
-        angle, deviation = np.append(angle, angle[0]), np.append(deviation, deviation[0])
-    r = scale.radius + scale.magnification * deviation
-    return r * np.cos(angle), r * np.sin(angle)
 
 
 def division_note(scale: Scale, to_scale: bool) -> str:

@@ -4,20 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from itertools import pairwise
-from math import floor, log10
 from threading import RLock
 from typing import Any
 
-import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.colors import LinearSegmentedColormap, to_hex
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
-
-from elastogeo.machine import Array
 
 BLUE, ORANGE, GREEN, GREY, INK, FAINT = "#0072b2", "#d55e00", "#009e73", "#767676", "#222222", "#d9d9d9"
 """After Okabe and Ito (2008)."""
@@ -62,7 +57,6 @@ _DIRECTIONS = {
     1: LinearSegmentedColormap.from_list("ccw", ["#9fd0ee", "#3d9bd4", "#0072b2", "#005688"]),
     -1: LinearSegmentedColormap.from_list("cw", ["#f6c39b", "#ef8a4a", "#d55e00", "#a84a00"]),
 }
-_POINTS, _FEWEST = 30000, 150
 _EDGE_RIGHT = 0.12
 """Room at the right of a figure [in]."""
 _LOCK = RLock()  # matplotlib's settings are global, and a web application draws from several threads
@@ -173,29 +167,3 @@ def direction_colours(forces: Sequence[float], sense: int) -> dict[float, str]:
     last = max(len(forces) - 1, 1)
     shades = _DIRECTIONS[sense]
     return {force: to_hex(shades(k / last if len(forces) > 1 else 0.6)) for k, force in enumerate(forces)}
-
-
-def nice_step(largest: float) -> float:
-    """The greatest of 1, 2, 5 times a power of ten that is not above `largest`."""
-    power = 10.0 ** floor(log10(largest))
-    return next(step * power for step in (5, 2, 1) if step * power <= largest * (1 + 1e-9))
-
-
-def thinned(pose: Array, values: Array, traces: int) -> tuple[Array, Array]:
-    """What is drawn of a trace: all of it, or the least and the greatest of each of many short pieces, in order.
-
-    Parameters
-    ----------
-    pose, values : array, shape (m,)
-    traces : int
-        How many traces the figure has; together they get a bounded number of points, so that its file stays small.
-    """
-    pieces = max(_FEWEST, _POINTS // (2 * traces))
-    if len(values) <= 2 * pieces:
-        return pose, values
-    edges = np.linspace(0, len(values), pieces + 1).astype(int)
-    kept = {0, len(values) - 1}
-    for first, last in pairwise(edges):
-        kept |= {first + int(np.argmin(values[first:last])), first + int(np.argmax(values[first:last]))}
-    chosen = np.array(sorted(kept))
-    return pose[chosen], values[chosen]

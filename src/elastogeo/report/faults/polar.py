@@ -12,7 +12,8 @@ import numpy as np
 from elastogeo.identification import CauseParts, RunParts
 from elastogeo.machine import Array
 from elastogeo.report.document import UM
-from elastogeo.report.drawing.circles import Scale, around, centre_part, division_note, plane_axes, scale_for
+from elastogeo.report.drawing.circles import division_note, plane_axes
+from elastogeo.report.drawing.magnified import Scale, around, centre_part, scale_for
 from elastogeo.report.drawing.plots import Circle, Entry, Line, Mark, Place, Plot, Shape, Text
 from elastogeo.report.numbers import pretty, significant
 

@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 
 from elastogeo.machine import Array
 from elastogeo.prediction import DEVIATION_COMPONENTS, PathPrediction
-from elastogeo.report.drawing.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, READABLE, SMALL, new_figure, nice_step
+from elastogeo.report.drawing.magnified import nice_step
+from elastogeo.report.drawing.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, READABLE, SMALL, new_figure
 from elastogeo.report.paths.rows import main_component, thinned_points, worst_point
 from elastogeo.report.text import UM
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from elastogeo.identification import ComparedForce, Stiffness, StiffnessMap, TorqueParts
 from elastogeo.machine import Array
 from elastogeo.report.drawing.circles import plane_axes
+from elastogeo.report.drawing.magnified import nice_step
 from elastogeo.report.drawing.style import (
     BLUE,
     FAINT,
@@ -23,7 +24,6 @@ from elastogeo.report.drawing.style import (
     SMALL,
     force_colours,
     new_figure,
-    nice_step,
 )
 from elastogeo.report.drive_terms import effort_unit, term_name
 from elastogeo.report.rollers.rows import UM, kind_name, modelled_name

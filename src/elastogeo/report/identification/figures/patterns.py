@@ -11,7 +11,8 @@ from matplotlib.patches import Polygon
 
 from elastogeo.identification import Identification, Pattern
 from elastogeo.report.drawing.circles import is_angular, ring
-from elastogeo.report.drawing.style import BLUE, FAINT, GREY, INK, ORANGE, SMALL, grid, thinned
+from elastogeo.report.drawing.magnified import thinned
+from elastogeo.report.drawing.style import BLUE, FAINT, GREY, INK, ORANGE, SMALL, grid
 
 _NOMINAL, _SWING = 1.0, 0.45
 _EDGE = 1.03

@@ -13,16 +13,14 @@ from matplotlib.lines import Line2D
 from elastogeo.identification import Identification, Response
 from elastogeo.machine import Array
 from elastogeo.report.drawing.circles import (
-    Scale,
-    around,
     division_note,
     is_angular,
     nominal_radius,
     plane_axes,
     pose_axis,
     rings,
-    scale_for,
 )
+from elastogeo.report.drawing.magnified import Scale, around, scale_for
 from elastogeo.report.drawing.style import SMALL, force_colours, panels
 from elastogeo.report.identification.figures.traces import broken
 from elastogeo.report.numbers import significant

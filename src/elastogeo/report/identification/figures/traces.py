@@ -13,17 +13,14 @@ from matplotlib.ticker import MultipleLocator
 from elastogeo.identification import Identification, Trace
 from elastogeo.machine import Array
 from elastogeo.report.drawing.circles import (
-    Scale,
-    around,
-    centre_part,
     division_bar,
     is_angular,
     nominal_radius,
     plane_axes,
     pose_axis,
     rings,
-    scale_for,
 )
+from elastogeo.report.drawing.magnified import Scale, around, centre_part, scale_for, thinned
 from elastogeo.report.drawing.style import (
     BLUE,
     GREY,
@@ -33,7 +30,6 @@ from elastogeo.report.drawing.style import (
     force_colours,
     multiples,
     new_figure,
-    thinned,
 )
 from elastogeo.report.numbers import significant
 from elastogeo.report.text import reading_unit
