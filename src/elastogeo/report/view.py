@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
-from pkgutil import iter_modules
+from pkgutil import iter_modules, walk_packages
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from elastogeo.identification import Check
@@ -335,5 +335,5 @@ def _view_files(kind: type) -> Iterator[str]:
     wings = [wing.name for wing in iter_modules(package.__path__, f"{package.__name__}.") if wing.ispkg]
     places = {wing: home.index(last) for wing in wings if (last := wing.rpartition(".")[2]) in home}
     for wing in sorted(wings, key=lambda wing: -places.get(wing, -1)):
-        files = (file.name for file in iter_modules(import_module(wing).__path__, f"{wing}."))
+        files = (file.name for file in walk_packages(import_module(wing).__path__, f"{wing}.") if not file.ispkg)
         yield from sorted((file for file in files if file.endswith("view")), key=lambda file: not file.endswith(".view"))

@@ -1,1 +1,1 @@
-"""The parts of the view of two tests that are held against each other."""
+"""Two tests of a history that are held against each other: the view and its parts."""
