@@ -13,7 +13,7 @@ import elastogeo as eg
 from elastogeo.web import Settings, application
 from elastogeo.web.answering import Done, Shown
 from elastogeo.web.app import every, with_errors
-from elastogeo.web.asking import ADMINISTRATOR, ENGINEER, READER, Ask, Visitor
+from elastogeo.web.asking import ADMINISTRATOR, ANYBODY, ENGINEER, READER, Ask, Visitor
 from elastogeo.web.pages import Pages
 
 HOST = "http://127.0.0.1:8347"
@@ -61,7 +61,7 @@ def test_what_is_not_there_is_said_in_one_sentence(browser: TestClient, path: st
 def test_every_page_has_a_role_and_the_twins_are_described() -> None:
     routes = [route for pages in every() for route in pages.routes]
     assert len(routes) > 5
-    assert {route.openapi_extra["x-role"] for route in routes} <= {READER, ENGINEER, ADMINISTRATOR}  # type: ignore[attr-defined]
+    assert {route.openapi_extra["x-role"] for route in routes} <= {ANYBODY, READER, ENGINEER, ADMINISTRATOR}  # type: ignore[attr-defined]
 
 
 @pytest.fixture

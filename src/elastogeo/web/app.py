@@ -83,12 +83,13 @@ def _misasked(request: Request, error: Exception) -> Response:
 def _answered(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
     words = {404: "There is no such page.", 405: "This address takes no such request."}
-    return told(asked_of(request), error.status_code, words.get(error.status_code, "This cannot be done."))
+    ours = error.detail if error.status_code in (408, 413) else "This cannot be done."
+    return told(asked_of(request), error.status_code, words.get(error.status_code, ours))
 
 
 def _failed(request: Request, error: Exception) -> Response:
     number = secrets.token_hex(4)
-    LOG.error("fault %s at %s", number, request.url.path, exc_info=error)
+    LOG.error("fault %s at %r", number, request.url.path, exc_info=error)
     return told(asked_of(request), 500, f"A fault of elastogeo, number {number}; the log of the server says more.")
 
 

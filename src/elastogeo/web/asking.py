@@ -15,9 +15,9 @@ from elastogeo.history import History, KnownMachine
 from elastogeo.version import VERSION
 from elastogeo.web.settings import Settings
 
-READER, ENGINEER, ADMINISTRATOR = "reader", "engineer", "administrator"
-ROLES = (READER, ENGINEER, ADMINISTRATOR)
-"""What a person may do, each what the one before may and more: look; test, judge and plan; decide who comes in."""
+ANYBODY, READER, ENGINEER, ADMINISTRATOR = "anybody", "reader", "engineer", "administrator"
+ROLES = (ANYBODY, READER, ENGINEER, ADMINISTRATOR)
+"""What a person may do, each what the one before may and more: log in; look; test, judge and plan; decide who comes in."""
 THEMES = ("auto", "light", "dark")
 
 
@@ -47,9 +47,18 @@ class Visitor:
     role: str
     account: int | None = None
 
+    @property
+    def is_known(self) -> bool:
+        """Whether it is somebody, not just anybody."""
+        return self.role != ANYBODY
+
     def may(self, role: str) -> bool:
         """Whether the visitor's role allows what this one may."""
         return ROLES.index(self.role) >= ROLES.index(role)
+
+
+NOBODY = Visitor("", ANYBODY)
+"""Who has not logged in."""
 
 
 @dataclass(frozen=True)

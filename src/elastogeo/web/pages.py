@@ -42,22 +42,40 @@ What the contract asks:
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from functools import wraps
 from inspect import iscoroutinefunction
 from typing import Any, TypeVar
 
-from fastapi import APIRouter, Response
+from fastapi import APIRouter, Request, Response
+from fastapi.routing import APIRoute
 
 from elastogeo.web.answering import CSV, HTML, JSON, Done, Shown, gone_on, rendered
-from elastogeo.web.asking import READER, Asked
+from elastogeo.web.asking import READER, Asked, asked_of
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 MEDIA = {HTML: "text/html", JSON: "application/json", CSV: "text/csv"}
 
 
+class Page(APIRoute):
+    """The address of a page: who may not see it is refused before a byte of what was sent is read."""
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        """What answers a request."""
+        answer, role = super().get_route_handler(), (self.openapi_extra or {})["x-role"]
+
+        async def handler(request: Request) -> Response:
+            asked_of(request).needs(role)
+            return await answer(request)
+
+        return handler
+
+
 class Pages(APIRouter):
     """The pages of one file. Its name is `pages`: that is how it is found."""
+
+    def __init__(self) -> None:
+        super().__init__(route_class=Page)
 
     def shows(self, path: str, *, role: str = READER, fresh: bool = False) -> Callable[[Function], Function]:
         """Register a page and its twins.
@@ -75,7 +93,7 @@ class Pages(APIRouter):
         def register(function: Function) -> Function:
             for twin, media in MEDIA.items():
                 at = f"{'/fleet' if path == '/' and twin else path}{twin}"
-                self._add(at, _shown(function, twin, role, fresh), "GET", function, role, media if twin else "")
+                self._add(at, _shown(function, twin, fresh), "GET", function, role, media if twin else "")
             return function
 
         return register
@@ -84,7 +102,7 @@ class Pages(APIRouter):
         """Register what a person or a program does: a form that is posted."""
 
         def register(function: Function) -> Function:
-            self._add(path, _acted(function, role), "POST", function, role, "application/json")
+            self._add(path, _acted(function), "POST", function, role, "application/json")
             return function
 
         return register
@@ -95,7 +113,7 @@ class Pages(APIRouter):
         """Register a file to download, or anything else of one form only: the function makes the response."""
 
         def register(function: Function) -> Function:
-            self._add(path, _given(function, role), "GET", function, role, media)
+            self._add(path, _given(function), "GET", function, role, media)
             return function
 
         return register
@@ -104,7 +122,7 @@ class Pages(APIRouter):
         """Register an act that makes its own response: one that sets a cookie, or reads the body as it comes."""
 
         def register(function: Function) -> Function:
-            self._add(path, _given(function, role), "POST", function, role, "application/json")
+            self._add(path, _given(function), "POST", function, role, "application/json")
             return function
 
         return register
@@ -125,10 +143,9 @@ class Pages(APIRouter):
         )
 
 
-def _shown(function: Callable[..., Shown], twin: str, role: str, fresh: bool) -> Callable[..., Response]:
+def _shown(function: Callable[..., Shown], twin: str, fresh: bool) -> Callable[..., Response]:
     @wraps(function)
     def endpoint(asked: Asked, **given: Any) -> Response:
-        asked.needs(role)
         tag = "" if fresh or asked.says_something else asked.tag()
         if tag and tag in asked.request.headers.get("if-none-match", ""):
             return Response(status_code=304, headers={"ETag": tag, "Cache-Control": "private, no-cache"})
@@ -137,25 +154,22 @@ def _shown(function: Callable[..., Shown], twin: str, role: str, fresh: bool) ->
     return endpoint
 
 
-def _acted(function: Callable[..., Done], role: str) -> Callable[..., Response]:
+def _acted(function: Callable[..., Done]) -> Callable[..., Response]:
     @wraps(function)
     def endpoint(asked: Asked, **given: Any) -> Response:
-        asked.needs(role)
         return gone_on(function(asked=asked, **given), asked)
 
     return endpoint
 
 
-def _given(function: Callable[..., Any], role: str) -> Callable[..., Any]:
+def _given(function: Callable[..., Any]) -> Callable[..., Any]:
     @wraps(function)
     def endpoint(asked: Asked, **given: Any) -> Response:
-        asked.needs(role)
         answer: Response = function(asked=asked, **given)
         return answer
 
     @wraps(function)
     async def waiting(asked: Asked, **given: Any) -> Response:
-        asked.needs(role)
         answer: Response = await function(asked=asked, **given)
         return answer
 

@@ -14,6 +14,7 @@ import uvicorn
 from elastogeo.errors import InputError
 from elastogeo.history import History
 from elastogeo.web.app import application
+from elastogeo.web.guard import Connection, check_reach
 from elastogeo.web.settings import Settings
 
 _PATIENCE = 10.0
@@ -34,13 +35,14 @@ def serve(settings: Settings, say: Callable[[str], None] = print) -> None:
     Raises
     ------
     StoreError
-        If the history cannot be opened.
+        If the history cannot be opened, or other computers are to be served and nobody could log in.
     """
     with History(settings.store, create=_is_new(settings.store), files=settings.files, who=settings.who) as history:
+        check_reach(settings, history.store)
         app = application(settings, history.store)
         config = uvicorn.Config(
             app, settings.host, settings.port, log_level="warning", server_header=False, proxy_headers=settings.behind_https,
-            timeout_keep_alive=20, h11_max_incomplete_event_size=32 * 1024,
+            timeout_keep_alive=20, h11_max_incomplete_event_size=32 * 1024, access_log=False, http=Connection,
         )  # fmt: skip
         worker = _Worker(settings) if settings.worker else None
         server = uvicorn.Server(config)

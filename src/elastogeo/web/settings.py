@@ -51,6 +51,11 @@ class Settings:
     who: str = ""
 
     @property
+    def is_reachable(self) -> bool:
+        """Whether other computers may reach it: by its address, or by a proxy in front of it."""
+        return not self.is_local or bool(self.hosts) or self.behind_https
+
+    @property
     def is_local(self) -> bool:
         """Whether only this computer can reach it."""
         if self.host in LOOPBACK:

@@ -55,9 +55,9 @@ def test_an_account_is_made_with_a_line_of_standard_input(url: str, elastogeo: R
 def test_a_terminal_is_asked_twice_and_shows_nothing(url: str, elastogeo: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     typed = iter([SECRET, "another one, mistyped", SECRET, SECRET])
     monkeypatch.setattr("getpass.getpass", lambda _: next(typed))
-    code, _, err = elastogeo("account", "A. Miller", "--role", "reader", typed=True)
+    code, _, err = elastogeo("account", "A. Miller", "--role", "administrator", typed=True)
     assert (code, err) == (2, "elastogeo: the two passwords differ; nothing was changed\n")
-    assert elastogeo("account", "A. Miller", "--role", "reader", typed=True)[0] == 0
+    assert elastogeo("account", "A. Miller", "--role", "administrator", typed=True)[0] == 0
     with open_store(url) as store:
         assert log_in(store, "A. Miller", SECRET)
 

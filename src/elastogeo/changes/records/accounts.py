@@ -14,6 +14,8 @@ class Account(Part):
 
     Attributes
     ----------
+    key : int
+        Of the person.
     name : str
     role : str
         `reader`, `engineer` or `administrator`.
@@ -29,6 +31,7 @@ class Account(Part):
         That have not ended.
     """
 
+    key: int
     name: str
     role: str
     active: bool

@@ -61,7 +61,7 @@ def add_account(store: Store, name: str, role: str, password: str | None, *, who
     Raises
     ------
     InputError
-        If there is one of this name, or name, role or password is none.
+        If there is one of this name, or name, role or password is none, or the first is no administrator with a password.
     """
     name = _checked_name(name)
     _check_role(role)
@@ -72,6 +72,10 @@ def add_account(store: Store, name: str, role: str, password: str | None, *, who
         for known in connection.scalars(select(person.c.name).join(account, account.c.person == person.c.id)):
             if known.casefold() == name.casefold():
                 raise InputError(f"there is an account {known!r} already; take another name")
+        if not _administrators(connection) and (role != ADMINISTRATOR or kept is None):
+            raise InputError(
+                "nobody could change accounts: no administrator can log in; make the account of one first, with a password"
+            )
         key = connection.execute(select(person.c.id).where(person.c.name == name)).scalar()
         if key is None:
             made = insert(person).values(name=name, role=role, made_at=now()).returning(person.c.id)
@@ -155,6 +159,7 @@ def kept_accounts(store: Store) -> KeptAccounts:
         rows = connection.execute(_joined().order_by(person.c.name)).all()
     found = tuple(
         Account(
+            row.person,
             row.name,
             row.role,
             row.active,

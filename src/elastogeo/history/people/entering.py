@@ -18,11 +18,13 @@ class Person:
 
     Attributes
     ----------
+    key : int
     name : str
     role : str
         `reader`, `engineer` or `administrator`.
     """
 
+    key: int
     name: str
     role: str
 
@@ -61,7 +63,7 @@ def person_of_session(store: Store, secret: str) -> Person | None:
     """Whose session this is; None if it has ended or never was."""
     at = now()
     asked = (
-        select(session.c.id, session.c.seen_at, person.c.name, person.c.role)
+        select(session.c.id, session.c.seen_at, session.c.person, person.c.name, person.c.role)
         .join(person, person.c.id == session.c.person)
         .join(account, account.c.person == person.c.id)
         .where(session.c.sha256 == digest(secret), living(at), account.c.active)
@@ -72,17 +74,17 @@ def person_of_session(store: Store, secret: str) -> Person | None:
         return None
     if at - found.seen_at > TOUCH:
         touch(store, found.id)
-    return Person(found.name, found.role)
+    return Person(found.person, found.name, found.role)
 
 
 def person_of_token(store: Store, secret: str) -> Person | None:
     """Whose token this is; None if it was ended or never was."""
     asked = (
-        select(person.c.name, person.c.role)
-        .join(token, token.c.person == person.c.id)
+        select(token.c.person, person.c.name, person.c.role)
+        .join(person, person.c.id == token.c.person)
         .join(account, account.c.person == person.c.id)
         .where(token.c.sha256 == digest(secret), token.c.ended_at.is_(None), account.c.active)
     )
     with read(store) as connection:
         found = connection.execute(asked).one_or_none()
-    return None if found is None else Person(found.name, found.role)
+    return None if found is None else Person(found.person, found.name, found.role)

@@ -65,6 +65,8 @@ def accounts_view(result: KeptAccounts) -> View:
             for one in result.accounts
         ),
         words=(0, 1, 2, 3, 4),
+        name="accounts",
+        keys=tuple(one.key for one in result.accounts),
     )
     return View(
         kind="Accounts",
@@ -99,6 +101,8 @@ def tokens_view(result: KeptTokens) -> View:
         ("No.", "For", "Owner", "Made (UTC)", "Ended (UTC)"),
         tuple((str(one.number), one.purpose, one.owner, _short(one.made_at), _short(one.ended_at)) for one in result.tokens),
         words=(1, 2, 3, 4),
+        name="tokens",
+        keys=tuple(one.number for one in result.tokens),
     )
     live = sum(one.ended_at is None for one in result.tokens)
     of = f" of {result.owner}" if result.owner is not None else ""

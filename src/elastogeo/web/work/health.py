@@ -5,13 +5,13 @@ from __future__ import annotations
 from fastapi import Response
 
 from elastogeo.web.answering import json_response
-from elastogeo.web.asking import Ask
+from elastogeo.web.asking import ANYBODY, Ask
 from elastogeo.web.pages import Pages
 
 pages = Pages()
 
 
-@pages.gives("/health", media="application/json")
+@pages.gives("/health", role=ANYBODY, media="application/json")
 def health(asked: Ask) -> Response:
     """`{"well": true}`, if the history can be read."""
     asked.history.edition()
