@@ -290,7 +290,7 @@ def _events(chart: _Chart, verdict: ChangeVerdict) -> None:
         if row is not None:
             y = chart.bottom - 12 - 20 * row
             chart.shapes.append(Circle(x, y, 9, "soft", filled=True))
-            chart.shapes.append(Text(x, y + 4, name, "middle", "paper", strong=True, size=11 if len(name) == 1 else 9))
+            chart.shapes.append(Text(x, y + 4, name, "middle", "paper", strong=True, size=12))
 
 
 def _above(chart: _Chart, verdict: ChangeVerdict, points: Sequence[Point]) -> None:

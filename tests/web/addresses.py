@@ -1,0 +1,31 @@
+"""Every page that there is, at an address of the small fleet that shows something: found in the routes, none forgotten."""
+
+from __future__ import annotations
+
+import re
+
+from elastogeo.web.app import every
+
+KEYS = {"machines": "1", "tests": "8", "campaigns": "1", "plans": "1", "alarms": "1", "jobs": "1", "instruments": "1"}
+"""Of each kind of thing, one of the fleet: the machine in alarm and its last test."""
+ASKED = {"/compare": "?a=7&b=8", "/explore": "?test=8", "/search": "?q=Hermle"}
+"""What a page is asked with that shows nothing without it."""
+ALSO = ("/machines/2", "/machines/3", "/machines/4", "/tests/24", "/tests/25", "/tests/26", "/tests/27")
+"""Other states and other instruments than that of the first."""
+
+
+def addresses() -> list[str]:
+    """All pages, in the order of their names."""
+    routes = [route for pages in every() for route in pages.routes]
+    paths = {route.path for route in routes if "GET" in route.methods}  # type: ignore[attr-defined]
+    pages = {path.removesuffix(".json") for path in paths if path.endswith(".json")} - {"/fleet"} | {"/"}
+    found = {_filled(path) for path in pages}
+    return sorted(found | {path for path in ALSO if re.sub(r"/(\w+)/\d+", _keyed, path) in found})
+
+
+def _filled(path: str) -> str:
+    return re.sub(r"/(\w+)/\{[^}]*\}", _keyed, path) + ASKED.get(path, "")
+
+
+def _keyed(found: re.Match[str]) -> str:
+    return f"/{found[1]}/{KEYS[found[1]]}"
