@@ -2,10 +2,13 @@
 PYTHON ?= python3
 
 .DEFAULT_GOAL := help
-.PHONY: demo test bench studies nightly check docs clean help
+.PHONY: demo web test bench studies nightly check docs clean help
 
 demo: ## identify the example test, print the result, write the report
 	@$(PYTHON) make.py demo
+
+web: ## serve the pages, with a fleet to look at
+	@$(PYTHON) make.py web
 
 test: ## set up everything that the tests need and run all of them
 	@$(PYTHON) make.py test

@@ -37,6 +37,7 @@ TASKS = {
         ["report", "history"],
         [("demo", ["-m", "elastogeo", "demo"])],
     ),
+    "web": ("serve the pages, with a fleet to look at", ["web"], [("web", ["-m", "elastogeo", "serve", "--demo"])]),
     "test": ("run every test", DEVELOPER, [("test", PYTEST)]),
     "bench": (
         "time whole commands, the solver, campaigns, plans, programs, maps, paths and a history (minutes)",

@@ -18,7 +18,7 @@ from elastogeo.cli.doors import Command, Group, doors, every
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
 HEAVY = {"jinja2", "matplotlib", "numpy", "pyarrow", "pydantic", "scipy", "typst"}
-TARGETS = {"demo", "test", "bench", "studies", "nightly", "check", "docs", "clean", "help"}
+TARGETS = {"demo", "web", "test", "bench", "studies", "nightly", "check", "docs", "clean", "help"}
 
 
 def subpackages() -> list[str]:
