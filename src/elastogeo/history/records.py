@@ -1,20 +1,25 @@
-"""What a history keeps of what was computed: recomputations, campaigns, plans. A part of `History`."""
+"""What a history keeps of what was computed: tests and drawings, recomputations, campaigns, plans. A part of `History`."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
+from typing import Any
 
-from elastogeo.changes import ComparedTests, KeptCampaign, KeptPlans, Recomputed
+from elastogeo.changes import ComparedTests, KeptCampaign, KeptPlans, KeptTest, Recomputed
 from elastogeo.history.alarms.assessing import assess
 from elastogeo.history.analyses import (
     campaigns,
+    draw,
+    drawing_of,
     due_date,
     finish_plan,
     keep_plan,
     kept_campaign,
+    kept_test,
     plans,
+    raw_file,
     read_plan,
     recompute,
     recompute_campaign,
@@ -38,6 +43,30 @@ class Records:
 
     store: Store
     who: str
+
+    def test(self, number: int) -> KeptTest:
+        """A test: what is known of it, its raw files, what it was evaluated to.
+
+        Raises
+        ------
+        InputError
+            If there is none of this number.
+        """
+        with read(self.store) as connection:
+            return kept_test(connection, number)
+
+    def raw_file(self, test: int, number: int) -> tuple[str, bytes]:
+        """The name and the content of a raw file of a test, by its place among them from 1, checked against its hash."""
+        return raw_file(self.store, test, number)
+
+    def draw(self, test: int, *, again: bool = False) -> int:
+        """Draw what the page of a test shows, once for each version of the software; the key of the analysis shown."""
+        return draw(self.store, test, self.who, again)
+
+    def drawing(self, analysis: int) -> dict[str, Any] | None:
+        """What is drawn of an analysis: `view`, `causes`; None if nothing is yet."""
+        with read(self.store) as connection:
+            return drawing_of(connection, analysis)
 
     def recompute(
         self, series: Iterable[int] | None = None, *, progress: Callable[[str], None] | None = None, jobs: int = 1

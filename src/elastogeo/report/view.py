@@ -306,7 +306,7 @@ def said(checks: Iterable[Check]) -> tuple[Said, ...]:
     return tuple(Said(check.name, check.passed, sentence_of(check), check.decisive) for check in checks)
 
 
-def attention_sentence(checks: Iterable[Check]) -> str:
+def attention_sentence(checks: Iterable[Check | Said]) -> str:
     """How many checks need attention, and how many passed: the end of an answer's sentence."""
     marks = [check.passed for check in checks]
     failed, untested = marks.count(False), marks.count(None)

@@ -17,6 +17,7 @@ from elastogeo.changes.records.compared import (
     SettingDifference,
 )
 from elastogeo.changes.records.jobs import CANCELLED, DONE, FAILED, RUNNING, WAITING, KeptJob, KeptJobs
+from elastogeo.changes.records.kept_tests import KeptAnalysis, KeptFile, KeptTest, SetAside
 from elastogeo.changes.records.plans import KeptPlan, KeptPlans
 from elastogeo.changes.records.recomputed import SAME_AGAIN, Differing, Recomputed, RecomputedTest, recomputed_same
 from elastogeo.changes.records.verified import (
@@ -76,16 +77,20 @@ __all__ = [
     "Differing",
     "IndicatorDifference",
     "KeptAccounts",
+    "KeptAnalysis",
     "KeptCampaign",
+    "KeptFile",
     "KeptJob",
     "KeptJobs",
     "KeptPlan",
     "KeptPlans",
+    "KeptTest",
     "KeptToken",
     "KeptTokens",
     "ParameterDifference",
     "Recomputed",
     "RecomputedTest",
+    "SetAside",
     "SettingDifference",
     "StoreFault",
     "Verified",

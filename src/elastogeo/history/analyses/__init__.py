@@ -16,6 +16,7 @@ if TYPE_CHECKING:
         recompute_campaign,
     )
     from elastogeo.history.analyses.kept_plans import due_date, finish_plan, keep_plan, plans, read_plan
+    from elastogeo.history.analyses.kept_tests import kept_test, raw_file
     from elastogeo.history.analyses.recomputing import outdated, recompute
 
 __all__ = [
@@ -31,9 +32,11 @@ __all__ = [
     "keep_parts",
     "keep_plan",
     "kept_campaign",
+    "kept_test",
     "last_analysis",
     "outdated",
     "plans",
+    "raw_file",
     "read_plan",
     "recompute",
     "recompute_campaign",
@@ -47,6 +50,7 @@ __getattr__ = first_use(
         "drawings": "draw drawing_of",
         "kept_campaigns": "campaign_text campaigns keep_campaign keep_parts kept_campaign recompute_campaign",
         "kept_plans": "due_date finish_plan keep_plan plans read_plan",
+        "kept_tests": "kept_test raw_file",
         "recomputing": "outdated recompute",
     },
 )
