@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from html import escape
 from io import BytesIO
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,9 @@ if TYPE_CHECKING:
 
 _INK = {"#222222": "--ink", "#767676": "--soft", "#d9d9d9": "--line"}
 """Colours of the house style that follow the scheme of the page."""
+
+_JOINED = 'stroke-linejoin="round" stroke-linecap="butt"'
+"""What matplotlib says of all lines in a style sheet."""
 
 
 def drawn(picture: Picture) -> bytes:
@@ -42,9 +46,17 @@ def inline(svg: bytes, picture: Picture) -> str:
     text = re.sub(r'(\bid="|url\(#|\bhref="#)', rf"\g<1>{picture.name}-", text)
     text = re.sub("|".join(_INK), lambda found: f"var({_INK[found[0]]}, {found[0]})", text)
     text = text.replace("fill: #ffffff", "fill: var(--paper, #ffffff)")
+    text = re.sub(r"<style\b.*?</style>", "", text, flags=re.DOTALL)
+    text = re.sub(r'\sstyle="([^"]*)"', lambda found: _attributes(found[1]), text)
     head, rest = text.split(">", 1)
     head = re.sub(r'\s(?:width|height|version)="[^"]*"', "", head)
-    return f'{head} role="img" aria-label="{picture.alternative}">{rest}'
+    return f'{head} {_JOINED} role="img" aria-label="{escape(picture.alternative)}">{rest}'
+
+
+def _attributes(style: str) -> str:
+    """The declarations of a style as attributes: a page that allows no style of its own elements shows them too."""
+    pairs = (entry.partition(":") for entry in style.split(";") if entry.strip())
+    return "".join(f' {name.strip()}="{value.strip()}"' for name, _, value in pairs)
 
 
 def svg_of(picture: Picture) -> str:

@@ -6,10 +6,12 @@ causes : [{names, title, name, value, unit, distortion, uncertainty, share, leng
 polars : [{force_N, title, note, plot, centre, radius, per_um}], a drawing for each force level, the highest first
 columns : as in `columns`
 heading, lead : what the causes are given at, and the answer in words
+untold : [sentence], what this test says nothing of, in short
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import groupby
 from typing import Any
 
@@ -19,7 +21,10 @@ from elastogeo.report.faults.polar import polars
 from elastogeo.report.faults.rows import YES, DiagnosisRow, described, diagnosis_rows
 from elastogeo.report.identification.figures.contributions import kind_of
 from elastogeo.report.numbers import pretty, significant, whole_percent
-from elastogeo.report.text import UM, listed
+from elastogeo.report.text import UM, combination, listed
+
+_NAMED = 4
+"""Names that are said in a sentence before the others are counted."""
 
 
 def causes_document(result: object) -> dict[str, Any] | None:
@@ -40,6 +45,7 @@ def causes_document(result: object) -> dict[str, Any] | None:
     return {
         "heading": f"peak to peak at {max((run.force for run in parts.runs), key=abs):g} N, 95 %",
         "lead": _lead(parts),
+        "untold": list(_untold(parts)),
         "causes": _causes(parts),
         "polars": [polar.to_dict() for polar in polars(parts)],
         "columns": columns_document(parts),
@@ -101,6 +107,21 @@ def _extent(parts: CauseParts) -> str:
             low, high = (_signed(value * UM) for value in (min(lows), max(highs)))
             ends.append(f"from {low} to {high} µm at {force:g} N")
     return f" The circle runs {', '.join(ends)}." if ends else ""
+
+
+def _untold(parts: CauseParts) -> Iterator[str]:
+    """What changes no reading, and what only sums of are known."""
+    null = parts.diagnosis.untold
+    if null:
+        more = f" and {len(null) - _NAMED} more" if len(null) > _NAMED + 1 else ""
+        yield (
+            f"{', '.join(null[:_NAMED])}{more}: they change no reading." if more else f"{listed(null)}: no reading changes."
+        )
+    sums = [p for p in parts.diagnosis.identification.parameters if len(p.stands_for) > 1]
+    if sums:
+        first = combination(sums[0].stands_for, _NAMED)
+        more = f", and {len(sums) - 1} more such sums" if len(sums) > 2 else ", and one more" if len(sums) == 2 else ""
+        yield f"Only the sum {pretty(first)} is known{more}."
 
 
 def _signed(value: float) -> str:

@@ -44,8 +44,7 @@ def kept_test_view(test: KeptTest) -> View:
         rows=[{"number": k, "path": file.path, "sha256": file.sha256} for k, file in enumerate(test.files, 1)],
         alert=tuple(_alerts(test)),
         badge=_badge(test, checks),
-        sections=(Section("Where it comes from", tables=(files_table(test), provenance_table(test))),),
-        tables=(),
+        sections=(Section("Where it comes from", tables=(files_table(test), provenance_table(test), asides_table(test))),),
     )
 
 
@@ -64,6 +63,14 @@ def files_table(test: KeptTest) -> Table:
 def provenance_table(test: KeptTest) -> Table:
     """By what it was evaluated, with which settings."""
     return Table(("", ""), tuple(_provenance(test)), words=(0, 1), title="How it was evaluated", name="provenance")
+
+
+def asides_table(test: KeptTest) -> Table:
+    """Who set the test aside or took it back, and why."""
+    rows = tuple(
+        (moment_said(one.at), "set aside" if one.aside else "taken back", one.who, one.why) for one in reversed(test.asides)
+    )
+    return Table(("when", "what", "who", "why"), rows, words=(0, 1, 2, 3), title="Set aside and taken back", name="asides")
 
 
 def _provenance(test: KeptTest) -> Iterator[tuple[str, str]]:

@@ -1,0 +1,199 @@
+"""One test: what it says, what causes it, what it cannot tell, and where everything comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from fastapi import Form, Query, Response
+
+from elastogeo.changes import KeptJob, KeptTest
+from elastogeo.errors import InputError
+from elastogeo.report import KeptView, Plot, Section, html_page, pdf_page, plot_of, view_kept, view_of
+from elastogeo.web.answering import Done, Shown, json_response
+from elastogeo.web.asking import ENGINEER, Ask, Asked, NotFound
+from elastogeo.web.pages import Pages
+from elastogeo.web.templating import page
+
+pages = Pages()
+Drawn = tuple[KeptView, dict[str, Any] | None]
+"""What is drawn of a test: its view, and its causes if it is a circle."""
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """The trace at one force level, as it is drawn."""
+
+    chosen: Mapping[str, Any]
+    plot: Plot
+    forces: tuple[tuple[str, str], ...]
+
+
+@pages.shows("/tests/{key:int}")
+def one_test(
+    asked: Ask, key: int, force: float | None = None, part: Annotated[int | None, Query(ge=0, le=99)] = None
+) -> Shown:
+    """A test: the conclusion, what failed, the trace with its ranked causes, and all else folded.
+
+    `force` chooses the force level whose trace is drawn, `part` opens a folded part.
+    """
+    kept = _kept(asked, key)
+    found = _drawn(asked, kept)
+    view, causes = view_of(kept), None if found is None else found[1]
+    if asked.by_htmx and part is not None:
+        inside = {"section": _section(found, part), "kept": None if found is None else found[0]}
+        return Shown("machines/test_section.html.j2", context=inside)
+    template = "machines/test_trace.html.j2" if asked.by_htmx and causes is not None else "machines/test.html.j2"
+    more = {} if causes is None else {"causes": causes["causes"], "columns": causes["columns"]["runs"]}
+    context = _context(asked, kept, found, force) | {"part": part}
+    return Shown(template, view, document={**view.document, **more}, rows=_rows(kept), context=context)
+
+
+@pages.gives("/tests/{key:int}/drawn", media="text/html")
+def drawn(asked: Ask, key: int) -> Response:
+    """Whether what takes long to draw is there: a part of the page, which asks again until it is."""
+    kept = _kept(asked, key)
+    context = _context(asked, kept, _drawn(asked, kept), None) | {"part": None}
+    text = page("machines/test_body.html.j2", asked, view=view_of(kept), **context)
+    return Response(text, media_type="text/html; charset=utf-8", headers={"Cache-Control": "no-store"})
+
+
+@pages.gives("/tests/{key:int}/columns", media="application/json")
+def columns(asked: Ask, key: int, force: float | None = None) -> Response:
+    """What the sliders compute with: the columns of the runs at one force level, by default the highest."""
+    tag = asked.tag()
+    if tag in asked.request.headers.get("if-none-match", ""):
+        return Response(status_code=304, headers={"ETag": tag})
+    causes = (_drawn(asked, _kept(asked, key)) or (None, None))[1]
+    if causes is None:
+        raise NotFound("This test has no circle, or it is not drawn yet.")
+    chosen = _level(causes, force)
+    runs = {name: run for name, run in causes["columns"]["runs"].items() if run["force_N"] == chosen["force_N"]}
+    about = {name: chosen[name] for name in ("force_N", "centre", "radius", "per_um")}
+    document = {**causes["columns"], "schema": "elastogeo.columns/1", "drawing": about, "runs": runs}
+    return json_response(document, headers={"ETag": tag, "Cache-Control": "private, no-cache"})
+
+
+@pages.gives("/tests/{key:int}/files/{number:int}")
+def raw_file(asked: Ask, key: int, number: int) -> Response:
+    """A raw file of a test, as it came in."""
+    try:
+        path, content = asked.history.raw_file(key, number)
+    except InputError as error:
+        raise NotFound(str(error)) from error
+    return _file(content, path.rpartition("/")[2], "application/octet-stream")
+
+
+@pages.gives("/tests/{key:int}/report.html", media="text/html")
+def report_page(asked: Ask, key: int) -> Response:
+    """The report of a test as one page that opens offline."""
+    kept = _report(asked, key)
+    return _file(html_page(kept.view, kept.figures).encode(), f"test-{key}.html", "text/html; charset=utf-8")
+
+
+@pages.gives("/tests/{key:int}/report.pdf", media="application/pdf")
+def report_pdf(asked: Ask, key: int) -> Response:
+    """The report of a test for the machine's file."""
+    kept = _report(asked, key)
+    return _file(pdf_page(kept.view, kept.figures), f"test-{key}.pdf", "application/pdf")
+
+
+@pages.acts("/tests/{key:int}/aside", role=ENGINEER)
+def set_aside(
+    asked: Ask,
+    key: int,
+    why: Annotated[str, Form(max_length=2000)],
+    back: Annotated[bool, Form()] = False,
+) -> Done:
+    """Set a test aside so that it counts in no chart, or take it back."""
+    _kept(asked, key)
+    found = asked.history.set_aside(key, why, back=back)
+    told = "counts again" if back else "is set aside and counts in no chart"
+    return Done(f"/tests/{key}", f"The test {told}; {found.machine} was judged again.")
+
+
+@pages.acts("/tests/{key:int}/draw", role=ENGINEER)
+def draw_again(asked: Ask, key: int) -> Done:
+    """Ask for a test to be evaluated and drawn anew from its raw files."""
+    _kept(asked, key)
+    job = asked.history.put_job("draw", {"test": key, "again": True})
+    return Done(f"/tests/{key}", "The test is being evaluated and drawn again.", {"job": job})
+
+
+def _kept(asked: Asked, key: int) -> KeptTest:
+    try:
+        return asked.history.test(key)
+    except InputError as error:
+        raise NotFound("There is no such test.") from error
+
+
+def _drawn(asked: Asked, kept: KeptTest) -> Drawn | None:
+    """What this version has drawn of a test; None if nothing is yet."""
+    if kept.analysis is None:
+        return None
+    found = asked.history.drawing(kept.analysis.key)
+    return None if found is None else (view_kept(found["view"], kept.analysis.document), found["causes"])
+
+
+def _drawing_job(asked: Asked, kept: KeptTest) -> KeptJob | None:
+    """The job that draws a test: asked for by the first who looks; none of what could not be evaluated."""
+    if kept.analysis is not None and kept.analysis.error:
+        return None
+    done = (one for one in asked.history.jobs(kind="draw").jobs if one.asked.get("test") == kept.key)
+    last = next(done, None)
+    if last is not None and last.state in ("failed", "cancelled"):
+        return last
+    return asked.history.job(asked.history.put_job("draw", {"test": kept.key}))
+
+
+def _context(asked: Asked, kept: KeptTest, found: Drawn | None, force: float | None) -> dict[str, Any]:
+    """What the templates of a test need."""
+    causes = None if found is None else found[1]
+    return {
+        "key": kept.key,
+        "test": kept,
+        "kept": None if found is None else found[0],
+        "causes": causes,
+        "circle": None if causes is None else _circle(causes, force),
+        "job": None if found is not None else _drawing_job(asked, kept),
+    }
+
+
+def _level(causes: Mapping[str, Any], force: float | None) -> Mapping[str, Any]:
+    """The drawing at a force level, the nearest one; by default the highest."""
+    polars: list[Mapping[str, Any]] = causes["polars"]
+    return polars[0] if force is None else min(polars, key=lambda polar: abs(polar["force_N"] - force))
+
+
+def _circle(causes: Mapping[str, Any], force: float | None) -> Circle:
+    chosen = _level(causes, force)
+    forces = tuple((f"{polar['force_N']:g}", polar["title"]) for polar in causes["polars"])
+    return Circle(chosen, plot_of(chosen["plot"]), forces)
+
+
+def _section(found: Drawn | None, part: int) -> Section:
+    sections = () if found is None else found[0].view.sections
+    if part >= len(sections):
+        raise NotFound("There is no such part of this test.")
+    return sections[part]
+
+
+def _report(asked: Asked, key: int) -> KeptView:
+    found = _drawn(asked, _kept(asked, key))
+    if found is None:
+        raise NotFound("The report is not drawn yet; open the page of the test, wait until it is drawn, and come back.")
+    return found[0]
+
+
+def _rows(kept: KeptTest) -> list[Mapping[str, Any]]:
+    """The main table of what the test says: its parameters, faults or values."""
+    told = {} if kept.analysis is None else kept.analysis.document or {}
+    lists = (told.get(name) for name in ("parameters", "faults", "rows"))
+    return next((rows for rows in lists if isinstance(rows, list)), [])
+
+
+def _file(content: bytes, name: str, media: str) -> Response:
+    safe = "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in name if letter.isascii())
+    headers = {"Content-Disposition": f'attachment; filename="{safe}"', "Cache-Control": "private, no-cache"}
+    return Response(content, media_type=media, headers=headers)
