@@ -5,7 +5,7 @@ causes : [{names, title, name, value, unit, distortion, uncertainty, share, leng
     what moves with it since the test cannot tell it apart
 polars : [{force_N, title, note, plot, centre, radius, per_um}], a drawing for each force level, the highest first
 columns : as in `columns`
-heading, lead : what the causes are given at, and the answer in words
+heading, lead, extent : what the causes are given at; the answer in words; how far the circle runs out
 untold : [sentence], what this test says nothing of, in short
 """
 
@@ -45,6 +45,7 @@ def causes_document(result: object) -> dict[str, Any] | None:
     return {
         "heading": f"peak to peak at {max((run.force for run in parts.runs), key=abs):g} N, 95 %",
         "lead": _lead(parts),
+        "extent": _extent(parts),
         "untold": list(_untold(parts)),
         "causes": _causes(parts),
         "polars": [polar.to_dict() for polar in polars(parts)],
@@ -84,7 +85,7 @@ def _kind(result: Identification, cause: Fault) -> str:
 
 
 def _lead(parts: CauseParts) -> str:
-    """How much of the deviation comes from what, and how far the circle runs out at the ends of the force."""
+    """How much of the deviation comes from what."""
     result = parts.diagnosis.identification
     by_kind = sorted(((_kind(result, cause), cause.share) for cause in parts.causes), key=lambda pair: pair[0])
     shares = {kind: sum(share for _, share in pairs) for kind, pairs in groupby(by_kind, key=lambda pair: pair[0])}
@@ -92,7 +93,7 @@ def _lead(parts: CauseParts) -> str:
     strongest = max((run.force for run in parts.runs), key=abs)
     causes = [f"{kind} {'makes' if not k else ''} {whole_percent(share)} %" for k, (kind, share) in enumerate(ranked)]
     said = " ".join(f"{listed(causes)} of the deviation at {strongest:g} N.".split())
-    return f"{said[:1].upper()}{said[1:]}{_extent(parts)}"
+    return f"{said[:1].upper()}{said[1:]}"
 
 
 def _extent(parts: CauseParts) -> str:
@@ -106,22 +107,21 @@ def _extent(parts: CauseParts) -> str:
         if lows and highs:
             low, high = (_signed(value * UM) for value in (min(lows), max(highs)))
             ends.append(f"from {low} to {high} µm at {force:g} N")
-    return f" The circle runs {', '.join(ends)}." if ends else ""
+    return f"The circle runs {', '.join(ends)}." if ends else ""
 
 
 def _untold(parts: CauseParts) -> Iterator[str]:
     """What changes no reading, and what only sums of are known."""
     null = parts.diagnosis.untold
     if null:
-        more = f" and {len(null) - _NAMED} more" if len(null) > _NAMED + 1 else ""
-        yield (
-            f"{', '.join(null[:_NAMED])}{more}: they change no reading." if more else f"{listed(null)}: no reading changes."
-        )
+        more = len(null) - _NAMED
+        names = listed(null) if more < 2 else f"{', '.join(null[:_NAMED])} and {more} more"
+        yield f"No reading depends on {names}."
     sums = [p for p in parts.diagnosis.identification.parameters if len(p.stands_for) > 1]
     if sums:
         first = combination(sums[0].stands_for, _NAMED)
-        more = f", and {len(sums) - 1} more such sums" if len(sums) > 2 else ", and one more" if len(sums) == 2 else ""
-        yield f"Only the sum {pretty(first)} is known{more}."
+        others = f", and {len(sums) - 1} more such sums" if len(sums) > 2 else ", and one more" if len(sums) == 2 else ""
+        yield f"Only the sum {pretty(first)} is known{others}."
 
 
 def _signed(value: float) -> str:

@@ -100,13 +100,10 @@ def _question(question: dict[str, Any]) -> Iterator[str]:
 
 def _head(test: KeptTest) -> Iterator[tuple[str, str]]:
     yield "Series", test.series
-    yield "Measured", f"{moment_said(test.at)}{f' (said as {test.zone})' if test.zone else ''}"
+    elsewhere = test.zone not in ("", "+00:00", "Z")
+    yield "Measured", f"{moment_said(test.at)}{f' (said as {test.zone})' if elsewhere else ''}"
     if test.instrument:
-        yield "Instrument", test.instrument
-        held = f"{date_said(test.calibrated_at)}{f', certificate {test.calibration}' if test.calibration else ''}"
-        overdue = test.calibration_due is not None and test.calibration_due < test.at
-        due = f"; it ran out on {date_said(test.calibration_due)}" if overdue else ""
-        yield "Calibrated", f"{held}{due}" if test.calibrated_at is not None else "nothing is kept of a calibration"
+        yield "Instrument", f"{test.instrument}, {_calibrated(test)}"
     if test.temperature is not None:
         yield "Temperature of the machine", f"{test.temperature:g} °C"
     for name, label in _ABOUT.items():
@@ -114,6 +111,15 @@ def _head(test: KeptTest) -> Iterator[tuple[str, str]]:
             yield label, str(test.about[name])
     if test.repeats is not None:
         yield "Repeats", f"the suspect test {test.repeats}"
+
+
+def _calibrated(test: KeptTest) -> str:
+    """Whether the instrument was calibrated when the test was measured."""
+    if test.calibrated_at is None:
+        return "nothing is kept of its calibration"
+    said = f"calibrated {date_said(test.calibrated_at)}{f', certificate {test.calibration}' if test.calibration else ''}"
+    overdue = test.calibration_due is not None and test.calibration_due < test.at
+    return f"{said}; that ran out on {date_said(test.calibration_due)}" if overdue else said
 
 
 def _checks(found: KeptAnalysis | None) -> tuple[Said, ...]:
@@ -156,7 +162,9 @@ def _badge(test: KeptTest, checks: tuple[Said, ...]) -> Badge:
 
 
 def _origin(test: KeptTest) -> str:
-    return "" if test.origin == "measured" else f"{test.origin.capitalize()}: {test.from_what}".removesuffix(": ")
+    if test.origin == "measured" or test.origin in test.from_what.casefold():
+        return "" if test.origin == "measured" else test.from_what
+    return f"{test.origin.capitalize()}: {test.from_what}".removesuffix(": ")
 
 
 def _size(count: int) -> str:
