@@ -69,6 +69,7 @@ if TYPE_CHECKING:
         standing_gaps,
     )
     from elastogeo.formats.run_files import RunFormat, read_run, run_formats
+    from elastogeo.formats.text.files_read import confined_to
     from elastogeo.formats.text.table import Table
     from elastogeo.formats.text.whole_files import write_whole
     from elastogeo.formats.tool_paths import force_of_table, path_of_table, read_forces, read_path
@@ -105,6 +106,7 @@ __all__ = [
     "compensation_format",
     "compensation_formats",
     "compensation_text",
+    "confined_to",
     "encode_part",
     "example_test",
     "find_machine",
@@ -187,6 +189,7 @@ __getattr__ = first_use(
         "recording_files": "Gap INITIAL PartHead RecordedChannel SCHEMA Samples encode_part "
         "part_files part_name read_head read_table said_gap said_time standing_gaps",
         "run_files": "RunFormat read_run run_formats",
+        "text.files_read": "confined_to",
         "text.table": "Table",
         "text.whole_files": "write_whole",
         "tool_paths": "force_of_table path_of_table read_forces read_path",

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from elastogeo.errors import FormatError
+from elastogeo.formats.text.files_read import may_open
 from elastogeo.formats.text.parquet_bytes import damaged, opened_parquet, pyarrow_modules, unpacked
 from elastogeo.machine import Array
 
@@ -118,6 +119,7 @@ def part_files(folder: Path) -> dict[int, Path]:
     FormatError
         If the folder cannot be listed.
     """
+    may_open(folder)
     try:
         found = {int(match[1]): path for path in folder.iterdir() if (match := PART.fullmatch(path.name))}
     except OSError as error:

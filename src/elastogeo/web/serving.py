@@ -7,6 +7,7 @@ import sys
 import threading
 from collections.abc import Callable
 from contextlib import suppress
+from datetime import UTC, datetime
 from pathlib import Path
 
 import uvicorn
@@ -39,6 +40,8 @@ def serve(settings: Settings, say: Callable[[str], None] = print) -> None:
     """
     with History(settings.store, create=_is_new(settings.store), files=settings.files, who=settings.who) as history:
         check_reach(settings, history.store)
+        if settings.demo and not history.machines():
+            history.put_job("demo", {"until": f"{datetime.now(UTC):%Y-%m-%dT00:00:00+00:00}"})
         app = application(settings, history.store)
         config = uvicorn.Config(
             app, settings.host, settings.port, log_level="warning", server_header=False, proxy_headers=settings.behind_https,
@@ -65,9 +68,9 @@ class _Worker:
     """The process that does what takes long; it is started again when it dies."""
 
     def __init__(self, settings: Settings) -> None:
-        self._command = [sys.executable, "-m", "elastogeo", "history", "work", "--store", str(settings.store)]
+        self._command = [sys.executable, "-m", "elastogeo", "history", "work", "--store", str(settings.store), "--attached"]
         self._end = threading.Event()
-        self._process = subprocess.Popen(self._command)
+        self._process = self._started()
         threading.Thread(target=self._watch, daemon=True).start()
 
     def stop(self) -> None:
@@ -82,4 +85,8 @@ class _Worker:
         while not self._end.is_set():
             self._process.wait()
             if not self._end.wait(_PAUSE):
-                self._process = subprocess.Popen(self._command)
+                self._process = self._started()
+
+    def _started(self) -> subprocess.Popen[bytes]:
+        """A worker that ends when this program does, however that ends: its standard input ends then."""
+        return subprocess.Popen(self._command, stdin=subprocess.PIPE)

@@ -11,6 +11,7 @@ from elastogeo.formats.log import Log
 from elastogeo.formats.log_files import read_log
 from elastogeo.formats.logs.parquet import read_recording
 from elastogeo.formats.recording_files import PART, part_files
+from elastogeo.formats.text.files_read import may_open
 from elastogeo.formats.text.fingerprint import sha256_of
 
 
@@ -78,6 +79,7 @@ def named_logs(entries: Sequence[str], file: Path) -> list[Path]:
         if not name or any(sign in folder for sign in "*?["):
             raise FormatError(f"{file}: logs has {entry!r}; write a file, or a pattern in its last part such as run_*.csv")
         place = file.parent / folder
+        may_open(place)
         matches = sorted(place.glob(name)) if any(sign in name for sign in "*?[") else [place / name]
         if not matches:
             raise FormatError(f"{file}: no log matches {entry!r} in {place}; copy the logs there, or correct the path")

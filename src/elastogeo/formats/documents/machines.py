@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from elastogeo.errors import FormatError
+from elastogeo.formats.text.files_read import may_open
 from elastogeo.formats.text.toml_documents import build, check_schema, read_document
 from elastogeo.formats.text.units import UNITS
 from elastogeo.machine import DOWN, ROTARY, SPINDLE, Joint, Machine, Place, Point, parse_topology
@@ -53,6 +54,7 @@ def find_machine(name: str, beside: Path) -> Machine:
     if name in shipped:
         return read_machine(shipped[name])
     path = beside / name
+    may_open(path)
     if path.suffix == ".toml" and path.is_file():
         return read_machine(path)
     raise FormatError(

@@ -36,7 +36,7 @@ from elastogeo.formats.recording_files import (
     said_time,
     standing_gaps,
 )
-from elastogeo.formats.text.files_read import noted
+from elastogeo.formats.text.files_read import may_open, noted
 from elastogeo.formats.text.parquet_bytes import can_read, damaged, pyarrow_modules
 from elastogeo.formats.text.table import MAX_COLUMNS
 from elastogeo.formats.text.units import UNITS, check_unit, split_unit
@@ -102,6 +102,7 @@ def read_recording(folder: str | Path, only: Sequence[Path] = ()) -> Log:
             raise FormatError(f"{folder}: has no part {missing_part}; check its name")
     parts, notes, rows = [], [], 0
     for path in files.values():
+        may_open(path)
         try:
             if path.stat().st_size > MAX_PART:
                 raise FormatError(f"{path}: is larger than {MAX_PART // 1_000_000} MB; no recorder writes such parts")

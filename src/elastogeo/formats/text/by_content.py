@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Protocol, TypeVar
 
 from elastogeo.errors import FormatError
-from elastogeo.formats.text.files_read import noted
+from elastogeo.formats.text.files_read import may_open, noted
 
 HEAD = 65_536
 """Bytes from the beginning of a file that a detector sees."""
@@ -55,6 +55,7 @@ def opened(path: str | Path, source: str) -> bytes:
     FormatError
         If it cannot be opened.
     """
+    may_open(path)
     try:
         with open(path, "rb") as file:
             return noted(path, file.read(MAX_BYTES + 1))

@@ -1,12 +1,14 @@
 """Which files a document is read from, as the readers themselves open them: what has to be kept to read it again.
 
 Every file of this room is opened in one of a few places (documents, run files and logs, parts of recordings), and each of
-them notes it here. So the list is right for every instrument and format, those to come included.
+them notes it here. So the list is right for every instrument and format, those to come included. For what somebody sent, the
+same places open nothing outside of it: a document may name any path.
 """
 
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -14,6 +16,8 @@ from pathlib import Path
 
 from elastogeo.errors import FormatError
 
+_SHIPPED = Path(__file__).resolve().parents[1]
+_TOP: ContextVar[Path | None] = ContextVar("the folder outside of which nothing is opened", default=None)
 _NOTES: ContextVar[dict[Path, str] | None] = ContextVar("files read", default=None)
 
 
@@ -35,6 +39,41 @@ def files_read() -> Iterator[dict[Path, str]]:
         yield found
     finally:
         _NOTES.reset(token)
+
+
+@contextmanager
+def confined_to(folder: str | Path) -> Iterator[None]:
+    """Let nothing be read inside that lies outside of a folder, but for what ships with elastogeo.
+
+    Parameters
+    ----------
+    folder : str or Path
+        It holds what somebody sent, and no links.
+    """
+    token = _TOP.set(Path(os.path.normpath(Path(folder).absolute())))
+    try:
+        yield
+    finally:
+        _TOP.reset(token)
+
+
+def may_open(path: str | Path) -> None:
+    """Refuse a path that leads out of the folder in which reading stays, if it stays in one.
+
+    Raises
+    ------
+    FormatError
+        Before anything there is looked at; whether it exists is not told.
+    """
+    top = _TOP.get()
+    if top is None:
+        return
+    place = Path(os.path.normpath(Path(path).absolute()))
+    if not place.is_relative_to(top) and not place.is_relative_to(_SHIPPED):
+        raise FormatError(
+            f"{os.path.relpath(place, top)}: lies outside of what was sent; "
+            f"send the file too, beside the test, and name it from there"
+        )
 
 
 def noted(path: str | Path, data: bytes) -> bytes:

@@ -19,7 +19,7 @@ from typing import Annotated, Any, TypeVar, Union, cast, get_args, get_origin, g
 from pydantic import TypeAdapter, ValidationError
 
 from elastogeo.errors import FormatError, InputError
-from elastogeo.formats.text.files_read import noted
+from elastogeo.formats.text.files_read import may_open, noted
 from elastogeo.formats.text.units import UNITS, to_internal
 from elastogeo.machine import LINEAR, MM_OR_RAD, ROTARY
 
@@ -39,6 +39,7 @@ def read_document(path: Path) -> dict[str, Any]:
     FormatError
         If it cannot be opened, is too large, is no UTF-8 or no TOML; the message says the line.
     """
+    may_open(path)
     try:
         data = noted(path, path.read_bytes())
     except OSError as error:

@@ -19,7 +19,7 @@ from sqlalchemy import Connection, insert, select, update
 
 from elastogeo.changes import Differing, KeptCampaign
 from elastogeo.errors import ElastogeoError, FormatError, InputError, StoreError, several
-from elastogeo.formats import CampaignParts, read_campaign
+from elastogeo.formats import CampaignParts, confined_to, read_campaign
 from elastogeo.history.analyses.analysing import PROGRAM
 from elastogeo.history.analyses.computation import made_with, sha256_of
 from elastogeo.history.analyses.differences import differences
@@ -214,7 +214,8 @@ def _beside(files: Files, text: str, raw: Mapping[str, Sequence[RawFile]]) -> It
         for name, found in raw.items():
             lay_out(files, found, top / name)
         (top / CAMPAIGN).write_text(text, encoding="utf-8")
-        yield top
+        with confined_to(Path(made).resolve()):
+            yield top
 
 
 def _document(text: str) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from tempfile import TemporaryDirectory, gettempdir
 from sqlalchemy import Connection, select
 
 from elastogeo.errors import InputError, StoreError
+from elastogeo.formats import confined_to
 from elastogeo.history.store import Files
 from elastogeo.history.store.schema import test_file
 
@@ -45,7 +46,8 @@ def raw_files(connection: Connection, test: int) -> tuple[RawFile, ...]:
 def laid_out(files: Files, raw: Sequence[RawFile], name: str = TEST) -> Iterator[Path]:
     """The files of a test in a temporary folder, each under its own name; the folder of the test in it.
 
-    A file beside the test's folder (`../machine.toml`) lies beside it here too, and never outside the temporary one.
+    A file beside the test's folder (`../machine.toml`) lies beside it here too, and never outside the temporary one. Nothing
+    else is read while it is there, whatever a document names.
 
     Raises
     ------
@@ -54,9 +56,10 @@ def laid_out(files: Files, raw: Sequence[RawFile], name: str = TEST) -> Iterator
     """
     with ExitStack() as stack:
         try:
-            top = stack.enter_context(TemporaryDirectory(prefix="elastogeo-", ignore_cleanup_errors=True))
-            folder = Path(top).resolve().joinpath(*["up"] * most_up(raw), name)
+            top = Path(stack.enter_context(TemporaryDirectory(prefix="elastogeo-", ignore_cleanup_errors=True))).resolve()
+            folder = top.joinpath(*["up"] * most_up(raw), name)
             lay_out(files, raw, folder)
+            stack.enter_context(confined_to(top))
         except OSError as error:
             raise StoreError(
                 f"{error.filename or gettempdir()}: {error.strerror}; the raw files could not be laid out for the analysis; "

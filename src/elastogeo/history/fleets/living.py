@@ -9,6 +9,7 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
+from sqlalchemy import Table, func, select
 
 from elastogeo.changes import SUSPECT
 from elastogeo.history.fleets.folders import write_test
@@ -23,6 +24,8 @@ from elastogeo.history.fleets.stories import (
     truth,
 )
 from elastogeo.history.history import History
+from elastogeo.history.store import read
+from elastogeo.history.store.schema import baseline, event, machine, series, test
 
 YEARS = 3.0
 BASELINE = 10
@@ -55,6 +58,8 @@ class Lived:
 def live(history: History, until: datetime, stories: tuple[Story, ...] = FLEET, years: float = YEARS) -> Iterator[Lived]:
     """Live through the years of a fleet, in a history that knows none of its machines.
 
+    In one where that was begun before, until the same day, and broke off at any instant, it goes on: the end is the same.
+
     Parameters
     ----------
     history : History
@@ -83,6 +88,8 @@ def live(history: History, until: datetime, stories: tuple[Story, ...] = FLEET, 
                 history.add_instrument(RECALIBRATED, calibrated=f"{on:%Y-%m-%d}", certificate="simulated")
                 recalibrated = True
             at = begin + timedelta(days=day, hours=number)
+            if _is_past(history, stories[number].name, at):
+                continue
             yield Lived(
                 stories[number].name, at, _tested(history, Path(folder), stories[number], day, at), done + 1, len(times)
             )
@@ -104,9 +111,32 @@ def _tested(history: History, folder: Path, story: Story, day: float, at: dateti
         if not added.verdict.steps or added.verdict.steps[-1].state != SUSPECT:
             break  # of an old test that nobody repeated the alarm is there at once; that day it was suspect
     struck = [fault.after for fault in story.faults if fault.kind == "collision"]
-    if any(day - EVERY < after <= day for after in struck):
+    if any(day - EVERY < after <= day for after in struck) and not _noted(history, story.name, event):
         history.add_event("crash", "the spindle ran into a clamp (simulated)", machine=story.name, at=f"{at:%Y-%m-%d}")
-    if number + 1 == BASELINE:
-        history.set_baseline(story.name, why="the first ten tests after commissioning", first=BASELINE)
+    if number + 1 == BASELINE and not _noted(history, story.name, baseline):
         history.set_interval(story.name, EVERY, why="tests every four weeks")
+        history.set_baseline(story.name, why="the first ten tests after commissioning", first=BASELINE)
     return state
+
+
+def _is_past(history: History, name: str, at: datetime) -> bool:
+    """Whether a machine has a test of a later day: all that belongs to this one was done then."""
+    of = (
+        select(func.max(test.c.at))
+        .join(series, series.c.id == test.c.series)
+        .join(machine, machine.c.id == series.c.machine)
+    )
+    with read(history.store) as connection:
+        last = connection.execute(of.where(machine.c.name == name)).scalar_one()
+    return last is not None and last > at + timedelta(days=1)
+
+
+def _noted(history: History, name: str, table: Table) -> bool:
+    """Whether a machine has a row in `event`, or a series of it one in `baseline`: the fleet makes one of each, at most."""
+    of = select(table.c.id).select_from(machine)
+    if table is baseline:
+        found = of.join(series, series.c.machine == machine.c.id).join(baseline, baseline.c.series == series.c.id)
+    else:
+        found = of.join(table, table.c.machine == machine.c.id)
+    with read(history.store) as connection:
+        return connection.execute(found.where(machine.c.name == name).limit(1)).first() is not None

@@ -31,7 +31,7 @@ LOOK = 0.5
 """Seconds between two looks for a job."""
 _LOST_EVERY = 15.0
 """Seconds between two looks for jobs whose worker is gone."""
-_TIDY_EVERY = 3600.0
+_TIDY_EVERY = 600.0
 _PAUSE = 5.0
 """Seconds to wait after the history could not be read or written."""
 
@@ -47,10 +47,10 @@ class Worker:
     told : callable
         Is told what becomes of each job, a line each.
     tidy : callable, optional
-        What is to be done once an hour beside the jobs.
+        What is to be done now and then beside the jobs.
     """
 
-    def __init__(self, store: Store, told: Told = lambda _: None, tidy: Callable[[Store], None] | None = None) -> None:
+    def __init__(self, store: Store, told: Told = lambda _: None, tidy: Callable[[Store], object] | None = None) -> None:
         self.store = store
         self.name = f"{socket.gethostname()}/{os.getpid()}/{secrets.token_hex(4)}"
         self._told = told

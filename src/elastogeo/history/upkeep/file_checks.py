@@ -36,9 +36,9 @@ def damaged(files: Files, sizes: dict[str, int], read: list[int], step: Step) ->
 
 
 def stray(files: Files, named: set[str]) -> Iterator[StoreFault]:
-    """Files that no row names; what is only coming in, and what a watch notes, is not counted."""
+    """Files that no row names; what is only coming in or was sent, and what a watch notes, is not counted."""
     for path in sorted(files.folder.rglob("*")):
-        if path.is_dir() or path.parent in (files.folder / "incoming", files.folder / "watched"):
+        if path.is_dir() or path.relative_to(files.folder).parts[0] in ("incoming", "parcels", "watched"):
             continue
         if path.name not in named or path.parent != files.folder / path.name[:2]:
             yield StoreFault(NO_STRAY_FILES, f"file {path.relative_to(files.folder).as_posix()}", STRAY)

@@ -22,11 +22,15 @@ from elastogeo.changes import KeptJob, KeptJobs
 from elastogeo.changes.records import CANCELLED, DONE, FAILED, RUNNING, WAITING
 from elastogeo.report.days import iso_date, moment_said
 from elastogeo.report.document import document
+from elastogeo.report.jobs.parcels import came_in, looked_at, simulated, waits_for_a_person
 from elastogeo.report.view import Badge, Table, View, lines, views
 
 SCHEMA, LIST_SCHEMA = "elastogeo.job/1", "elastogeo.jobs/1"
 _MARKS = {WAITING: "–", RUNNING: "▷", DONE: "●", FAILED: "■", CANCELLED: "–"}
 _TONES = {WAITING: "none", RUNNING: "none", DONE: "good", FAILED: "bad", CANCELLED: "none"}
+_TOLD = {"look": looked_at, "import": came_in}
+"""Kinds of which more is told than how long they took."""
+_TITLES = {"look": "What was sent", "import": "Import", "demo": "A simulated fleet"}
 _SECONDS_A_DAY = 86_400.0
 
 
@@ -39,11 +43,12 @@ def job_line(job: KeptJob) -> str:
 @views(KeptJob)
 def job_view(job: KeptJob) -> View:
     """How far a job is, and what came of it."""
+    told = _TOLD[job.kind](job.result) if job.state == DONE and job.result and job.kind in _TOLD else (_answer(job), ())
     return View(
         kind="Job",
-        title=f"{job.kind[:1].upper()}{job.kind[1:]}",
+        title=_TITLES.get(job.kind, f"{job.kind[:1].upper()}{job.kind[1:]}"),
         subtitle=f"job {job.key}",
-        origin="",
+        origin=simulated(job.result or {}),
         head=tuple(
             (label, text)
             for label, text in (
@@ -54,12 +59,14 @@ def job_view(job: KeptJob) -> View:
             )
             if text
         ),
-        sentence=_answer(job),
+        sentence=told[0],
         values=(),
         picture=None,
         checks=(),
         document=document(SCHEMA, entry_of(job)),
-        badge=Badge(_MARKS[job.state], f"{job.state[:1].upper()}{job.state[1:]}{_share(job)}", _TONES[job.state]),
+        rows=(job.result or {}).get("tests", ()),
+        tables=told[1],
+        badge=_badge(job),
         notes=job.errors,
     )
 
@@ -74,7 +81,9 @@ def jobs_view(found: KeptJobs) -> View:
             (str(job.key), job.kind, job.who, moment_said(job.made_at), f"{job.state}{_share(job)}", _brief(job))
             for job in found.jobs
         ),
-        words=(1, 2, 3, 4, 5),
+        words=(0, 1, 2, 3, 4, 5),
+        name="jobs",
+        keys=tuple(job.key for job in found.jobs),
     )
     return View(
         kind="Jobs",
@@ -112,6 +121,12 @@ def entry_of(job: KeptJob) -> dict[str, Any]:
         "result": job.result,
         "errors": list(job.errors),
     }
+
+
+def _badge(job: KeptJob) -> Badge:
+    if job.state == DONE and job.kind == "look" and waits_for_a_person(job.result or {}):
+        return Badge("▷", "To be confirmed", "care")
+    return Badge(_MARKS[job.state], f"{job.state[:1].upper()}{job.state[1:]}{_share(job)}", _TONES[job.state])
 
 
 def _answer(job: KeptJob) -> str:

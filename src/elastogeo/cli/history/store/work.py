@@ -34,9 +34,10 @@ def work(
       elastogeo history work --store shop.db
     """
     from elastogeo.history.jobs import Worker, stop_at_signals
+    from elastogeo.history.parcels import sweep_parcels
 
     with eg.History(store, who=who) as history:
-        worker = Worker(history.store, _tell)
+        worker = Worker(history.store, _tell, sweep_parcels)
         stop_at_signals(worker)
         if attached:
             threading.Thread(target=_stop_at_end, args=(worker,), daemon=True).start()

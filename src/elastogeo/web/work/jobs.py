@@ -1,0 +1,60 @@
+"""Long work: what runs, what waits, what came of it."""
+
+from __future__ import annotations
+
+from elastogeo.changes import KeptJob
+from elastogeo.errors import InputError
+from elastogeo.report import view_of
+from elastogeo.web.answering import Done, Shown
+from elastogeo.web.asking import ENGINEER, Ask, Asked, NotFound
+from elastogeo.web.pages import Pages
+from elastogeo.web.work.upload import unplaced
+
+pages = Pages()
+
+
+@pages.shows("/jobs", fresh=True)
+def jobs(asked: Ask) -> Shown:
+    """What runs, what waits, and what is over, the last first."""
+    found = asked.history.jobs()
+    over = all(job.is_over for job in found.jobs)
+    return Shown("work/jobs.html.j2", view_of(found), part="work/jobs_part.html.j2", context={"over": over})
+
+
+@pages.shows("/jobs/{key:int}", fresh=True)
+def job(asked: Ask, key: int) -> Shown:
+    """How far a job is, and what came of it."""
+    found = _found(asked, key)
+    looked = found.kind == "look" and found.state == "done" and found.result is not None
+    context = {
+        "job": found,
+        "groups": unplaced(found.result or {}) if looked else [],
+        "to_import": looked and any(not one["known"] for one in (found.result or {})["tests"]),
+        "undated": looked and any(not one["date"] and not one["known"] for one in (found.result or {})["tests"]),
+        "machines": asked.history.machines() if looked else (),
+        "may_act": asked.visitor.may(ENGINEER),
+    }
+    return Shown("work/job.html.j2", view_of(found), part="work/job_part.html.j2", context=context)
+
+
+@pages.acts("/jobs/{key:int}/cancel", role=ENGINEER)
+def cancel(asked: Ask, key: int) -> Done:
+    """End a job: one that waits never begins, one that runs ends after its step."""
+    _found(asked, key)
+    asked.history.cancel_job(key)
+    return Done(f"/jobs/{key}", "It ends after its step.")
+
+
+@pages.acts("/jobs/{key:int}/again", role=ENGINEER)
+def again(asked: Ask, key: int) -> Done:
+    """Let a job that failed or was cancelled wait again."""
+    _found(asked, key)
+    asked.history.try_job_again(key)
+    return Done(f"/jobs/{key}", "It waits again.")
+
+
+def _found(asked: Asked, key: int) -> KeptJob:
+    try:
+        return asked.history.job(key)
+    except InputError as error:
+        raise NotFound(f"{str(error)[:1].upper()}{str(error)[1:]}.") from None
