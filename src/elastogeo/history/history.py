@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import datetime, timedelta
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -23,7 +23,7 @@ from elastogeo.changes import (
     Verified,
     machine_state,
 )
-from elastogeo.changes.alarms import AlarmList, Delivery
+from elastogeo.changes.alarms import AlarmList, Delivery, KeptAlarm
 from elastogeo.errors import ElastogeoError, StoreError
 from elastogeo.formats import campaign_parts
 from elastogeo.history import alarms
@@ -36,6 +36,7 @@ from elastogeo.history.analyses import (
     keep_parts,
     unanalysed,
 )
+from elastogeo.history.care import Care
 from elastogeo.history.intake.asides import KnownTest, set_test_aside
 from elastogeo.history.intake.days import ends_of_day
 from elastogeo.history.intake.folders import in_order, paths_of_tests, written
@@ -54,6 +55,7 @@ from elastogeo.history.store import Store, audit, edition, now, open_store, read
 from elastogeo.history.tasks import Tasks
 from elastogeo.history.upkeep.backups import back_up
 from elastogeo.history.upkeep.exports import export
+from elastogeo.history.upkeep.kept_copies import note_copy
 from elastogeo.history.upkeep.manifests import Copied
 from elastogeo.history.upkeep.raw_copies import Step, silent
 from elastogeo.history.upkeep.verification import verify
@@ -91,7 +93,7 @@ class Added:
         return self.imported is not None and self.imported.new
 
 
-class History(Records, Access, Tasks):
+class History(Records, Access, Tasks, Care):
     """Machines and their tests over the years.
 
     Parameters
@@ -168,15 +170,29 @@ class History(Records, Access, Tasks):
         assess(self.store, found.series)
         return found
 
-    def audit(self, last: int = 20, subject: str = "", who: str = "") -> AuditTrail:
-        """The audit trail: its last rows (of a subject, of a person), and whether all of it is as it was written."""
+    def audit(
+        self, last: int = 20, subject: str = "", who: str = "", before: int | None = None, check: int | None = None
+    ) -> AuditTrail:
+        """The audit trail: its last rows (of a subject, of a person), and whether all of it is as it was written.
+
+        Parameters
+        ----------
+        last : int
+            Rows.
+        subject, who : str
+            Only the rows of this subject, by its first words (`test 12`, `series`), or of this person.
+        before : int, optional
+            Only rows before this one.
+        check : int, optional
+            Rows up to which the trail is checked, where a longer one would take too long; by default any is checked.
+        """
         from elastogeo.history.store.trail import audit_trail
 
-        return audit_trail(self.store, last, subject, who)
+        return audit_trail(self.store, last, subject, who, before, check)
 
     def back_up(self, folder: str | Path, step: Step = silent) -> Copied:
-        """Copy everything into a new folder, while others work, and check the copy."""
-        return back_up(self.store, folder, step)
+        """Copy everything into a new folder, while others work, check the copy, and note it in the audit trail."""
+        return note_copy(self.store, back_up(self.store, folder, step), self.who)
 
     def verify(self, step: Step = silent) -> Verified:
         """Check that everything kept is as it was written."""
@@ -378,10 +394,27 @@ class History(Records, Access, Tasks):
         set_interval(self.store, key, days, grace, who=self.who, why=why)
         assess(self.store, key)
 
-    def alarms(self) -> AlarmList:
-        """All that waits for somebody: open alarms, overdue tests, messages that did not arrive."""
+    def alarms(self, closed: float = 0.0) -> AlarmList:
+        """All that waits for somebody: open alarms, overdue tests, messages that did not arrive.
+
+        Parameters
+        ----------
+        closed : float [d]
+            With the alarms that were closed within so many days, and the machines of which nothing is sent.
+        """
         with read(self.store) as connection:
-            return alarms.standing(connection, now())
+            return alarms.lately(connection, now(), timedelta(closed)) if closed else alarms.standing(connection, now())
+
+    def alarm(self, number: int) -> KeptAlarm:
+        """One alarm, open or closed, with all that happened to it.
+
+        Raises
+        ------
+        InputError
+            If there is none of this number.
+        """
+        with read(self.store) as connection:
+            return alarms.kept_alarm(connection, number, now())
 
     def acknowledge(self, number: int, why: str) -> AlarmList:
         """Say that somebody knows of an alarm; it stays open, and is told again only if it becomes worse."""

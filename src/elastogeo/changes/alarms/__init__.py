@@ -1,7 +1,8 @@
 """Alarms as results, which the history fills: their steps, how they stand, whom they told."""
 
+from elastogeo.changes.alarms.kept import AlarmMessage, AlarmStep, KeptAlarm
 from elastogeo.changes.alarms.messages import Delivered, Delivery, Recipient, Recipients
-from elastogeo.changes.alarms.standing import AlarmList, AlarmNews, AlarmRow, FailedRow, OverdueRow
+from elastogeo.changes.alarms.standing import AlarmList, AlarmNews, AlarmRow, FailedRow, OverdueRow, SilenceRow
 from elastogeo.changes.alarms.steps import ACKNOWLEDGED, CLOSED, FALSE, HELD, OPEN, RELEASED, REPAIRED, WORSE
 
 __all__ = [
@@ -14,12 +15,16 @@ __all__ = [
     "REPAIRED",
     "WORSE",
     "AlarmList",
+    "AlarmMessage",
     "AlarmNews",
     "AlarmRow",
+    "AlarmStep",
     "Delivered",
     "Delivery",
     "FailedRow",
+    "KeptAlarm",
     "OverdueRow",
     "Recipient",
     "Recipients",
+    "SilenceRow",
 ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from elastogeo.changes.fleets import MachineRow
 from elastogeo.changes.result import ChangeVerdict
@@ -128,6 +128,28 @@ class FailedRow(Part):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
+class SilenceRow(Part):
+    """A machine of which nothing is sent.
+
+    Attributes
+    ----------
+    machine : str
+    machine_key : int
+        In its history.
+    until, at : float [d]
+        Until when, and when that was said.
+    who, why : str
+    """
+
+    machine: str
+    machine_key: int
+    until: float
+    at: float
+    who: str
+    why: str
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class AlarmList(Result):
     """Alarms, and what else a person should see once a week: the digest.
 
@@ -144,6 +166,10 @@ class AlarmList(Result):
         From what the tests are simulated; empty if any was measured.
     acted : bool
         Whether it is what a person just did to one alarm, not all there is.
+    closed : tuple of AlarmRow
+        Those that were closed lately, the last first; the digest has none of them.
+    silences : tuple of SilenceRow
+        Those that hold now, by machine; the digest has none of them.
     """
 
     now: float
@@ -152,3 +178,18 @@ class AlarmList(Result):
     failed: tuple[FailedRow, ...] = ()
     simulated: str = ""
     acted: bool = False
+    closed: tuple[AlarmRow, ...] = ()
+    silences: tuple[SilenceRow, ...] = ()
+
+    @property
+    def places(self) -> tuple[str, ...]:
+        """Halls or plants of the machines."""
+        return tuple(sorted({row.place for row in (*self.alarms, *self.closed)} - {""}))
+
+    def only(self, state: str = "", place: str = "") -> AlarmList:
+        """The alarms in a state, at a place; empty: all. An instrument has no place."""
+
+        def chosen(rows: tuple[AlarmRow, ...]) -> tuple[AlarmRow, ...]:
+            return tuple(row for row in rows if state in ("", row.state) and place in ("", row.place))
+
+        return replace(self, alarms=chosen(self.alarms), closed=chosen(self.closed))

@@ -5,8 +5,8 @@ from elastogeo.changes.records.audit_trail import TRAIL_WHOLE, AuditFault, Audit
 from elastogeo.changes.records.campaigns import KeptCampaign
 from elastogeo.changes.records.compared import (
     FEW_RUNS,
-    NOT_ANALYSED,
     NOTHING_IN_COMMON,
+    NOT_ANALYSED,
     OTHER_MACHINE,
     WITHIN_SCATTER,
     CircleTrace,
@@ -15,6 +15,14 @@ from elastogeo.changes.records.compared import (
     IndicatorDifference,
     ParameterDifference,
     SettingDifference,
+)
+from elastogeo.changes.records.copies import KeptCheck, KeptCopies, KeptCopy
+from elastogeo.changes.records.instruments import (
+    Calibration,
+    InstrumentRecord,
+    KeptInstrument,
+    KeptInstruments,
+    TestWith,
 )
 from elastogeo.changes.records.jobs import CANCELLED, DONE, FAILED, RUNNING, WAITING, KeptJob, KeptJobs
 from elastogeo.changes.records.kept_tests import KeptAnalysis, KeptFile, KeptTest, SetAside
@@ -38,6 +46,14 @@ from elastogeo.changes.records.verified import (
     StoreFault,
     Verified,
     as_written,
+)
+from elastogeo.changes.records.wanted import (
+    KeptSettings,
+    SeriesRecord,
+    SetBaseline,
+    TestOfSeries,
+    WantedOfIndicator,
+    WantedOfSeries,
 )
 
 __all__ = [
@@ -71,29 +87,43 @@ __all__ = [
     "AuditFault",
     "AuditRow",
     "AuditTrail",
+    "Calibration",
     "CircleTrace",
     "ComparedTest",
     "ComparedTests",
     "Differing",
     "IndicatorDifference",
+    "InstrumentRecord",
     "KeptAccounts",
     "KeptAnalysis",
     "KeptCampaign",
+    "KeptCheck",
+    "KeptCopies",
+    "KeptCopy",
     "KeptFile",
+    "KeptInstrument",
+    "KeptInstruments",
     "KeptJob",
     "KeptJobs",
     "KeptPlan",
     "KeptPlans",
+    "KeptSettings",
     "KeptTest",
     "KeptToken",
     "KeptTokens",
     "ParameterDifference",
     "Recomputed",
     "RecomputedTest",
+    "SeriesRecord",
     "SetAside",
+    "SetBaseline",
     "SettingDifference",
     "StoreFault",
+    "TestOfSeries",
+    "TestWith",
     "Verified",
+    "WantedOfIndicator",
+    "WantedOfSeries",
     "as_written",
     "recomputed_same",
     "trail_whole",

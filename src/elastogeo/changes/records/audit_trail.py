@@ -85,11 +85,11 @@ class AuditTrail(Result):
     verdict: tuple[Check, ...]
 
 
-def trail_whole(count: int, faults: Sequence[AuditFault]) -> Check:
-    """Whether every row is as it was written."""
+def trail_whole(count: int, faults: Sequence[AuditFault], checked: bool = True) -> Check:
+    """Whether every row is as it was written; not tested where nobody looked."""
     facts = {
         "rows": count,
         "faults": dict(Counter(fault.fault for fault in faults)),
         "first": [(fault.number, fault.fault, fault.was) for fault in faults[:5]],
     }
-    return Check(TRAIL_WHOLE, not faults, facts, decisive=True)
+    return Check(TRAIL_WHOLE, not faults if checked else None, facts, decisive=True)

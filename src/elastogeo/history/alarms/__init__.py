@@ -16,9 +16,10 @@ if TYPE_CHECKING:
     from elastogeo.history.alarms.assessing import assess, assess_waiting
     from elastogeo.history.alarms.delivery import deliver
     from elastogeo.history.alarms.judging import judged
-    from elastogeo.history.alarms.open_ones import standing
+    from elastogeo.history.alarms.open_ones import lately, standing
     from elastogeo.history.alarms.silences import silence_machine
     from elastogeo.history.alarms.states import fleet
+    from elastogeo.history.alarms.told import kept_alarm
     from elastogeo.history.alarms.trying import try_rule_of
 
 _found = first_use(
@@ -29,9 +30,10 @@ _found = first_use(
         "delivery": "deliver",
         "judging": "judged",
         "addresses": "add_recipient recipients remove_recipient try_recipient",
-        "open_ones": "standing",
+        "open_ones": "lately standing",
         "silences": "silence_machine",
         "states": "fleet",
+        "told": "kept_alarm",
         "trying": "try_rule_of",
     },
 )
@@ -45,6 +47,8 @@ __all__ = [
     "deliver",
     "fleet",
     "judged",
+    "kept_alarm",
+    "lately",
     "recipients",
     "remove_recipient",
     "silence_machine",

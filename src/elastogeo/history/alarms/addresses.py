@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 
 from sqlalchemy import Connection, func, insert, select, update
 
@@ -15,10 +16,22 @@ from elastogeo.history.store import Store, audit, now, read, write
 from elastogeo.history.store.schema import outbox, recipient
 
 
-def recipients(store: Store) -> Recipients:
-    """All who are told, those who were removed too."""
+def recipients(store: Store, whole: bool = True) -> Recipients:
+    """All who are told, those who were removed too.
+
+    Parameters
+    ----------
+    store : Store
+    whole : bool
+        Whether with all of each address; else without what may be a secret in it.
+    """
     with read(store) as connection:
-        return _all(connection)
+        found = _all(connection)
+    return found if whole else replace(found, recipients=tuple(_shortened(one) for one in found.recipients))
+
+
+def _shortened(one: Recipient) -> Recipient:
+    return replace(one, address=shown(one.address))
 
 
 def add_recipient(

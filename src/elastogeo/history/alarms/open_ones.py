@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from datetime import datetime, timedelta
 
 from sqlalchemy import Connection, select
 
 from elastogeo.changes import MachineRow, due_after, due_on
-from elastogeo.changes.alarms import ACKNOWLEDGED, HELD, OPEN, AlarmList, AlarmRow, FailedRow, OverdueRow
+from elastogeo.changes.alarms import ACKNOWLEDGED, CLOSED, HELD, OPEN, AlarmList, AlarmRow, FailedRow, OverdueRow
 from elastogeo.history.alarms.addresses import shown
 from elastogeo.history.alarms.life import is_acknowledged, recorded
 from elastogeo.history.alarms.outbox import GIVEN_UP, NEWER
 from elastogeo.history.alarms.rows import Kept, alarms, open_alarms
-from elastogeo.history.alarms.silences import silent_until
+from elastogeo.history.alarms.silences import silences, silent_until
 from elastogeo.history.series_of import days
 from elastogeo.history.store.schema import (
     alarm,
+    alarm_step,
     instrument,
     machine,
     outbox,
@@ -36,6 +38,14 @@ def standing(connection: Connection, at: datetime) -> AlarmList:
     known = {OPEN: 0, HELD: 2}
     ordered = sorted(rows, key=lambda row: (known.get(row.state, 1), row.opened, row.number))
     return AlarmList(days(at), tuple(ordered), overdue(connection, at), _failed(connection, at), simulated(connection))
+
+
+def lately(connection: Connection, at: datetime, closed: timedelta) -> AlarmList:
+    """The same, with the alarms that were closed within so long, and the machines of which nothing is sent."""
+    ended = select(alarm_step.c.alarm).where(alarm_step.c.state.in_(CLOSED), alarm_step.c.at > at - closed)
+    rows = rows_of(connection, alarms(connection, alarm.c.id.in_(ended)), at)
+    known = sorted(rows, key=lambda row: (-row.at, row.number))
+    return replace(standing(connection, at), closed=tuple(known), silences=silences(connection, at))
 
 
 def rows_of(connection: Connection, kept: Iterable[Kept], at: datetime) -> tuple[AlarmRow, ...]:

@@ -6,10 +6,12 @@ from datetime import datetime
 
 from sqlalchemy import Connection, func, insert, select
 
+from elastogeo.changes.alarms import SilenceRow
 from elastogeo.errors import InputError
 from elastogeo.history.names import machine_key
+from elastogeo.history.series_of import days
 from elastogeo.history.store import Store, audit, now, write
-from elastogeo.history.store.schema import silence
+from elastogeo.history.store.schema import machine, silence
 
 
 def silent_until(connection: Connection, at: datetime) -> dict[int, datetime]:
@@ -17,6 +19,18 @@ def silent_until(connection: Connection, at: datetime) -> dict[int, datetime]:
     last = select(func.max(silence.c.id)).group_by(silence.c.machine)
     rows = connection.execute(select(silence.c.machine, silence.c.until).where(silence.c.id.in_(last), silence.c.until > at))
     return {row.machine: row.until for row in rows}
+
+
+def silences(connection: Connection, at: datetime) -> tuple[SilenceRow, ...]:
+    """Those that hold, by machine."""
+    last = select(func.max(silence.c.id)).group_by(silence.c.machine)
+    rows = connection.execute(
+        select(silence, machine.c.name)
+        .join(machine, machine.c.id == silence.c.machine)
+        .where(silence.c.id.in_(last), silence.c.until > at)
+        .order_by(machine.c.name)
+    )
+    return tuple(SilenceRow(row.name, row.machine, days(row.until), days(row.at), row.who, row.why) for row in rows)
 
 
 def silence_machine(store: Store, name: str, until: datetime | None, who: str, why: str) -> None:

@@ -75,6 +75,36 @@ def add_machine(store: Store, name: str, *, who: str, kind: str = "", serial: st
         return _where(connection, name=name)[0]
 
 
+def change_machine(
+    store: Store, key: int, *, who: str, name: str, kind: str = "", serial: str = "", place: str = "", why: str = ""
+) -> KnownMachine:
+    """Say anew what a machine is called, its model, serial number and place; what is empty is not known any more.
+
+    Raises
+    ------
+    InputError
+        If there is no such machine, the name is none or is another machine's, or another machine has the serial number.
+    """
+    said = {"name": check_name(name, "a machine"), "kind": kind.strip(), "serial": serial.strip(), "place": place.strip()}
+    with write(store) as connection:
+        every = _where(connection)
+        old = next((one for one in every if one.key == key), None)
+        if old is None:
+            raise InputError(f"there is no machine {key}")
+        others = [one for one in every if one.key != key]
+        for one in others:
+            if _folded(one.name) == _folded(said["name"]):
+                raise InputError(f"{one.name!r} is another machine; give a name that people tell from it")
+            if said["serial"] and one.serial == said["serial"]:
+                raise InputError(f"{one.name!r} has the serial number {one.serial!r} already; a number is of one machine")
+        changed = {what: value for what, value in said.items() if value != getattr(old, what)}
+        if changed:
+            connection.execute(update(machine).where(machine.c.id == key).values(changed))
+            before = {what: getattr(old, what) for what in changed}
+            audit.record(connection, who, "change machine", f"machine {key}", old=before, new=changed, why=why.strip())
+        return KnownMachine(key, **said)
+
+
 def machines(connection: Connection) -> tuple[KnownMachine, ...]:
     """All machines, by name."""
     return tuple(_where(connection))

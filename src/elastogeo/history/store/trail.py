@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sqlalchemy import func, select
+from sqlalchemy import func, or_, select
 
 from elastogeo.changes import AuditFault, AuditRow, AuditTrail, trail_whole
 from elastogeo.history.store import audit
@@ -10,7 +10,9 @@ from elastogeo.history.store.opening import Store, read
 from elastogeo.history.store.schema import audit as rows
 
 
-def audit_trail(store: Store, last: int = 20, subject: str = "", who: str = "") -> AuditTrail:
+def audit_trail(
+    store: Store, last: int = 20, subject: str = "", who: str = "", before: int | None = None, check: int | None = None
+) -> AuditTrail:
     """Check the whole trail, and give its last rows.
 
     Parameters
@@ -19,17 +21,29 @@ def audit_trail(store: Store, last: int = 20, subject: str = "", who: str = "") 
     last : int
         How many rows.
     subject, who : str
-        Only the rows of this subject (`test 12`), or of this person.
+        Only the rows of this subject, by its first words (`test 12`, `series`), or of this person.
+    before : int, optional
+        Only rows before this one.
+    check : int, optional
+        Rows up to which the trail is checked; a longer one is only shown. By default any is checked.
     """
     asked = select(rows).order_by(rows.c.number.desc()).limit(last)
-    for column, wanted in ((rows.c.subject, subject), (rows.c.who, who)):
-        asked = asked.where(column == wanted) if wanted else asked
+    if subject.strip():
+        said = subject.strip()
+        more = (rows.c.subject.startswith(f"{said}{mark}", autoescape=True) for mark in (" ", ","))
+        asked = asked.where(or_(rows.c.subject == said, *more))
+    if who.strip():
+        asked = asked.where(func.lower(rows.c.who) == who.strip().lower())
+    if before is not None:
+        asked = asked.where(rows.c.number < before)
     with read(store) as connection:
-        faults = tuple(AuditFault(one.number, one.fault, one.was) for one in audit.verify(connection))
         count = connection.execute(select(func.count()).select_from(rows)).scalar_one()
+        checked = check is None or count <= check
+        found = audit.verify(connection) if checked else ()
+        faults = tuple(AuditFault(one.number, one.fault, one.was) for one in found)
         head = connection.execute(select(rows.c.sha256).order_by(rows.c.number.desc()).limit(1)).scalar() or ""
         shown = tuple(
             AuditRow(row.number, row.at, row.who, row.what, row.subject, row.old, row.new, row.why, row.sha256)
             for row in connection.execute(asked)
         )
-    return AuditTrail(store.url, count, head, shown, faults, (trail_whole(count, faults),))
+    return AuditTrail(store.url, count, head, shown, faults, (trail_whole(count, faults, checked),))

@@ -1,18 +1,30 @@
 """The view of the alarms that wait for somebody, and `elastogeo.alarms/1`, its document.
 
 now : when this was so
-alarms : as `alarm` in `elastogeo.alarm/1`
+alarms, closed : as `alarm` in `elastogeo.alarm/1`; those that were closed lately, where they are asked for
 overdue : [{machine, series, due, overdue_days}]
 failed : [{channel, address, subject, error, at}], messages of the last week that were given up
+silences : [{machine, until, at, who, why}], machines of which nothing is sent, where they are asked for
 simulated : from what the tests are simulated, or null
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from elastogeo.changes.alarms import ACKNOWLEDGED, CLOSED, HELD, OPEN, AlarmList, AlarmRow
-from elastogeo.report.alarms.words import counted, entry, of_what, over_said
+from elastogeo.report.alarms.words import (
+    change_said,
+    counted,
+    entry,
+    marked,
+    of_what,
+    person_said,
+    points_said,
+    since_said,
+    sure_said,
+)
 from elastogeo.report.days import date_said, iso_date, simulated_said
 from elastogeo.report.document import document
 from elastogeo.report.numbers import significant
@@ -25,10 +37,15 @@ SCHEMA = "elastogeo.alarms/1"
 def alarm_list_view(result: AlarmList) -> View:
     """All that waits for somebody."""
     tables = tuple(_tables(result))
-    rows = [entry(row) for row in result.alarms]
+    rows = [entry(row) for row in (*result.alarms, *result.closed)]
     found = {
         "now": iso_date(result.now),
-        "alarms": rows,
+        "alarms": [entry(row) for row in result.alarms],
+        "closed": [entry(row) for row in result.closed],
+        "silences": [
+            {"machine": one.machine, "until": iso_date(one.until), "at": iso_date(one.at), "who": one.who, "why": one.why}
+            for one in result.silences
+        ],
         "overdue": [
             {"machine": row.machine, "series": row.series, "due": iso_date(row.due), "overdue_days": row.overdue}
             for row in result.overdue
@@ -58,7 +75,7 @@ def alarm_list_view(result: AlarmList) -> View:
         document=document(SCHEMA, found),
         rows=rows,
         tables=tables,
-        sections=(Section("Alarms", tables=tables),),
+        sections=tuple(_sections(result)),
     )
 
 
@@ -91,17 +108,86 @@ def _closed(row: AlarmRow) -> str:
 def _tables(result: AlarmList) -> Iterator[Table]:
     if result.alarms:
         yield Table(
-            ("No.", "Of", "State", "Opened", "What", "Confirmed", "Who and why"),
+            ("No.", "Of", "State", "What", "Since", "How sure", "Who and why"),
             tuple(_alarm(row) for row in result.alarms),
             words=(1, 2, 3, 4, 5, 6),
             title="Alarms",
         )
+    yield from _beside(result)
+
+
+def _sections(result: AlarmList) -> Iterator[Section]:
+    """The page: alarms by their state, those of one machine together, then what else waits."""
+    groups = (("Open", OPEN), ("Acknowledged", ACKNOWLEDGED), ("Held back under an instrument", HELD))
+    for title, state in groups:
+        rows = [row for row in result.alarms if row.state == state]
+        if rows:
+            yield Section(title, tables=(_of_page(state, rows),))
+    if result.closed:
+        yield Section("Closed lately", tables=(_of_page("closed", result.closed),))
+    for table in _beside(result):
+        yield Section(table.title, tables=(replace(table, title=""),))
+
+
+def _of_page(name: str, rows: Iterable[AlarmRow]) -> Table:
+    first: dict[str, int] = {}
+    for place, row in enumerate(rows := list(rows)):
+        first.setdefault(row.machine or row.instrument, place)
+    ordered = sorted(rows, key=lambda row: first[row.machine or row.instrument])
+    return Table(
+        ("State", "Machine", "Series", "What", "Since", "How sure", "Points to", "Who and why", "Beside"),
+        tuple(
+            (
+                marked(row.state),
+                row.machine or f"Instrument {row.instrument}",
+                row.series,
+                _capital(change_said(row)),
+                since_said(row),
+                sure_said(row),
+                points_said(row),
+                f"{person_said(row)}{f' ({date_said(row.at)})' if row.who else ''}",
+                _held_said(row),
+            )
+            for row in ordered
+        ),
+        words=tuple(range(9)),
+        name=name,
+        keys=tuple(row.number for row in ordered),
+    )
+
+
+def _held_said(row: AlarmRow) -> str:
+    """What else holds of it: silent, held back, simulated."""
+    parts = (
+        "" if row.silent_until is None else f"nothing is sent until {date_said(row.silent_until)}",
+        "" if row.held_by is None else f"held back under alarm {row.held_by} of the instrument",
+        "simulated" if row.simulated else "",
+    )
+    return "; ".join(part for part in parts if part)
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def _beside(result: AlarmList) -> Iterator[Table]:
+    """What waits beside the alarms."""
     if result.overdue:
         yield Table(
             ("Machine", "Series", "Due", "Overdue [d]"),
             tuple((row.machine, row.series, date_said(row.due), significant(row.overdue, 2)) for row in result.overdue),
             words=(0, 1, 2),
             title="Overdue",
+            name="overdue",
+        )
+    if result.silences:
+        yield Table(
+            ("Machine", "Nothing is sent until", "Who", "Why"),
+            tuple((one.machine, date_said(one.until), one.who, one.why) for one in result.silences),
+            words=(0, 1, 2, 3),
+            title="Silent machines",
+            name="silences",
+            keys=tuple(one.machine_key for one in result.silences),
         )
     if result.failed:
         yield Table(
@@ -109,13 +195,12 @@ def _tables(result: AlarmList) -> Iterator[Table]:
             tuple((date_said(row.at), row.channel, row.address, row.subject, row.error) for row in result.failed),
             words=(0, 1, 2, 3, 4),
             title="Given up",
+            name="failed",
         )
 
 
 def _alarm(row: AlarmRow) -> tuple[str, ...]:
     silent = "" if row.silent_until is None else f"; silent until {date_said(row.silent_until)}"
-    what = over_said(row.over) if not row.holds else f"holds back {', '.join(row.holds)}"
-    person = f"{row.who}: {row.why}" if row.who else ""
-    confirmed = "" if row.instrument else ("by a second test" if row.confirmed else "no")
     of = f"{of_what(row)} (simulated)" if row.simulated else of_what(row)
-    return str(row.number), of, f"{row.state}{silent}", date_said(row.opened), what, confirmed, person
+    what = "; points to ".join(part for part in (change_said(row), points_said(row)) if part)
+    return str(row.number), of, f"{row.state}{silent}", what, since_said(row), sure_said(row), person_said(row)

@@ -2,8 +2,9 @@
 
 step : `open`, `worse`, `released`, `closed as repaired` or `closed as false`
 alarm : {number, machine, series, instrument, state, opened, over, confirmed, who, why, at, holds, silent_until,
-    simulated}; `over` is by indicator how many limits it was off at most; `holds` are machines whose alarms an
-    instrument's alarm holds back
+    simulated, place, since, points_to, held_by}; `over` is by indicator how many limits it was off at most; `since` is when
+    the machine changed; `holds` are machines whose alarms an instrument's alarm holds back, `held_by` is the number of the
+    alarm that holds this one back
 change : the document of the verdict that caused it, `elastogeo.change/1` without its chart, or null
 simulated : from what the tests are simulated, or null
 """

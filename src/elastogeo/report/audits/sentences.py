@@ -28,6 +28,8 @@ def trail_whole(facts: Facts, passed: bool | None) -> str:
     """Every row as it was written, or which are not."""
     if passed:
         return f"Every row has the seal of its content and of the row before; rows: {facts['rows']}."
+    if passed is None:
+        return f"Not looked at; rows: {facts['rows']}."
     named = [_FAULTS[fault].format(number, was) for number, fault, was in facts["first"]]
     more = sum(facts["faults"].values()) - len(named)
     rest = f", and {more} more" if more else ""

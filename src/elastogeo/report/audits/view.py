@@ -39,7 +39,9 @@ def audit_view(result: AuditTrail) -> View:
         ("No.", "At (UTC)", "Who", "What", "Subject", "Old", "New", "Why"),
         tuple(_line(row) for row in result.rows),
         words=(1, 2, 3, 4, 5, 6, 7),
-        title=f"The last {len(rows)} of {result.count} rows" if rows else "No row is of what was asked for",
+        title=f"{len(rows)} of {result.count} rows, the last first" if rows else "No row is of what was asked for",
+        name="rows",
+        keys=tuple(row.number for row in result.rows),
     )
     return View(
         kind="Audit trail",
@@ -61,6 +63,8 @@ def audit_view(result: AuditTrail) -> View:
 
 def _answer(result: AuditTrail) -> str:
     holds = "is empty" if not result.count else f"holds {result.count} {'row' if result.count == 1 else 'rows'}"
+    if any(check.passed is None for check in result.verdict):
+        return f"The audit trail {holds}; whether all are as they were written was not looked at."
     return f"The audit trail {holds} and is {'not ' if result.faults else ''}as it was written."
 
 
