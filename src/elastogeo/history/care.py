@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from elastogeo.changes import InstrumentRecord, KeptCopies, KeptInstruments, KeptSettings, SeriesRecord
 from elastogeo.changes.alarms import Recipient, Recipients
 from elastogeo.errors import InputError
@@ -31,7 +33,8 @@ class Care:
     def instruments(self) -> KeptInstruments:
         """All instruments, those whose calibration has run out first."""
         with read(self.store) as connection:
-            return instruments(connection, self.store.url, now())
+            found = instruments(connection, self.store.url, now())
+            return replace(found, simulated=alarms.simulated(connection))
 
     def instrument(self, key: int) -> InstrumentRecord:
         """One instrument, with its calibrations, alarms, and what was tested with it.
@@ -42,12 +45,13 @@ class Care:
             If there is none of this key.
         """
         with read(self.store) as connection:
-            return instrument_record(connection, key, now())
+            return replace(instrument_record(connection, key, now()), simulated=alarms.simulated(connection))
 
     def settings(self) -> KeptSettings:
         """What people have set: of each series its baseline, its limits, how often it is tested."""
         with read(self.store) as connection:
-            return KeptSettings(self.store.url, days(now()), wanted_of_series(connection))
+            found = wanted_of_series(connection)
+            return KeptSettings(self.store.url, days(now()), found, alarms.simulated(connection))
 
     def series_settings(self, key: int) -> SeriesRecord:
         """One series: what is wanted of it, and what that is decided from.
@@ -89,6 +93,16 @@ class Care:
     ) -> KnownMachine:
         """Say anew what a machine is called, its model, serial number and place; what is empty is not known any more."""
         return change_machine(self.store, key, who=self.who, name=name, kind=kind, serial=serial, place=place, why=why)
+
+    def silence_until(self, machine: str, day: str, why: str) -> None:
+        """Send nothing of a machine until the end of a day (`2026-12-24`), or send again (`now`).
+
+        Raises
+        ------
+        InputError
+            If it is no day to come, there is no such machine, or no reason is given.
+        """
+        alarms.silence_machine(self.store, machine, alarms.end_of(day.strip(), "the last day"), self.who, why)
 
     def add_recipient(self, channel: str, address: str, digest: bool = True) -> Recipients:
         """Let somebody be told of alarms.

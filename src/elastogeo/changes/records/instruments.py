@@ -71,11 +71,14 @@ class KeptInstruments(Result):
     now : float [d]
     instruments : tuple of KeptInstrument
         Those whose calibration has run out first, then by the date on which it does, those without a date last.
+    simulated : str
+        From what the tests are simulated; empty if any was measured.
     """
 
     store: str
     now: float
     instruments: tuple[KeptInstrument, ...]
+    simulated: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -115,6 +118,8 @@ class InstrumentRecord(Result):
         Number, state, and since when it is in this state [d], the last first.
     events : tuple of Event
         The last first.
+    simulated : str
+        From what the tests are simulated; empty if any was measured.
     """
 
     now: float
@@ -122,3 +127,4 @@ class InstrumentRecord(Result):
     tests: tuple[TestWith, ...]
     alarms: tuple[tuple[int, str, float], ...]
     events: tuple[Event, ...]
+    simulated: str = ""

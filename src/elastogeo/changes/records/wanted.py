@@ -73,11 +73,14 @@ class KeptSettings(Result):
     now : float [d]
     series : tuple of WantedOfSeries
         Those without a baseline that holds first, then by machine.
+    simulated : str
+        From what the tests are simulated; empty if any was measured.
     """
 
     store: str
     now: float
     series: tuple[WantedOfSeries, ...]
+    simulated: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

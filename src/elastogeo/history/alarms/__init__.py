@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from elastogeo.history.alarms.assessing import assess, assess_waiting
     from elastogeo.history.alarms.delivery import deliver
     from elastogeo.history.alarms.judging import judged
-    from elastogeo.history.alarms.open_ones import lately, standing
-    from elastogeo.history.alarms.silences import silence_machine
+    from elastogeo.history.alarms.open_ones import lately, simulated, standing
+    from elastogeo.history.alarms.silences import end_of, silence_machine
     from elastogeo.history.alarms.states import fleet
     from elastogeo.history.alarms.told import kept_alarm
     from elastogeo.history.alarms.trying import try_rule_of
@@ -30,8 +30,8 @@ _found = first_use(
         "delivery": "deliver",
         "judging": "judged",
         "addresses": "add_recipient recipients remove_recipient try_recipient",
-        "open_ones": "lately standing",
-        "silences": "silence_machine",
+        "open_ones": "lately simulated standing",
+        "silences": "end_of silence_machine",
         "states": "fleet",
         "told": "kept_alarm",
         "trying": "try_rule_of",
@@ -45,6 +45,7 @@ __all__ = [
     "assess_waiting",
     "close",
     "deliver",
+    "end_of",
     "fleet",
     "judged",
     "kept_alarm",
@@ -52,6 +53,7 @@ __all__ = [
     "recipients",
     "remove_recipient",
     "silence_machine",
+    "simulated",
     "standing",
     "try_recipient",
     "try_rule_of",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from datetime import datetime
+from datetime import UTC, datetime, timedelta
 
 from sqlalchemy import Connection, func, insert, select
 
@@ -31,6 +31,36 @@ def silences(connection: Connection, at: datetime) -> tuple[SilenceRow, ...]:
         .order_by(machine.c.name)
     )
     return tuple(SilenceRow(row.name, row.machine, days(row.until), days(row.at), row.who, row.why) for row in rows)
+
+
+def end_of(said: str, where: str) -> datetime | None:
+    """When a silence ends that is said to: a day ends at its midnight, where this computer is; None: now.
+
+    Parameters
+    ----------
+    said : str
+        `2026-12-24`, `2026-12-24T12:00`, `now`.
+    where : str
+        Who says it, for the message.
+
+    Raises
+    ------
+    InputError
+        If it is no date.
+    """
+    if said == "now":
+        return None
+    try:
+        end = datetime.fromisoformat(said)
+        if len(said) <= len("2026-12-24"):
+            end += timedelta(days=1)
+        end = end if end.tzinfo is not None else end.astimezone()
+        end.astimezone(UTC)  # as it is kept: the last hours of the calendar are of no year there
+    except (ValueError, OverflowError):
+        raise InputError(
+            f"{where} is {said[:40]!r}; give a day, as 2026-12-24, a time, as 2026-12-24T12:00, or now"
+        ) from None
+    return end
 
 
 def silence_machine(store: Store, name: str, until: datetime | None, who: str, why: str) -> None:

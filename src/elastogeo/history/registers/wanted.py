@@ -25,7 +25,8 @@ from elastogeo.history.store.schema import baseline, machine, series, series_sta
 
 def wanted_of_series(connection: Connection, key: int | None = None) -> tuple[WantedOfSeries, ...]:
     """Of every series, or of one: those without a baseline that holds first, then by machine."""
-    tests = dict(connection.execute(select(test.c.series, func.count()).group_by(test.c.series)).all())
+    counted = select(test.c.series, func.count()).group_by(test.c.series)
+    tests: dict[int, int] = {row[0]: row[1] for row in connection.execute(counted)}
     last = {row.series: row for row in connection.execute(select(baseline).order_by(baseline.c.id))}
     limits: dict[int, set[str]] = {}
     for row in connection.execute(_last_tolerances()):

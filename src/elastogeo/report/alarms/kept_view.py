@@ -80,10 +80,11 @@ def kept_alarm_view(result: KeptAlarm) -> View:
         words=tuple(range(5)),
         name="messages",
     )
+    rows = [asdict(step) | {"at": iso_date(step.at)} for step in result.steps]
     found = {
         "now": iso_date(result.now),
         "alarm": entry(row),
-        "steps": [asdict(step) | {"at": iso_date(step.at)} for step in result.steps],
+        "steps": rows,
         "messages": [asdict(one) | {"made": iso_date(one.made), "sent": iso_date(one.sent)} for one in result.messages],
         "simulated": row.simulated or None,
     }
@@ -98,7 +99,7 @@ def kept_alarm_view(result: KeptAlarm) -> View:
         picture=None,
         checks=(),
         document=document(SCHEMA, found),
-        rows=found["steps"],
+        rows=rows,
         tables=(steps, messages) if result.messages else (steps,),
         sections=(
             Section("What happened", tables=(steps,)),

@@ -161,7 +161,7 @@ def _held_said(row: AlarmRow) -> str:
     parts = (
         "" if row.silent_until is None else f"nothing is sent until {date_said(row.silent_until)}",
         "" if row.held_by is None else f"held back under alarm {row.held_by} of the instrument",
-        "simulated" if row.simulated else "",
+        "simulated" if row.simulated and "simulated" not in row.series else "",
     )
     return "; ".join(part for part in parts if part)
 

@@ -1,6 +1,6 @@
 """Views of who is told and of what was sent, with `elastogeo.recipients/1` and `elastogeo.delivery/1`, their documents.
 
-recipients : [{channel, address, digest, active, waiting}]; `waiting` counts messages that are not sent yet
+recipients : [{number, channel, address, digest, active, waiting}]; `waiting` counts messages that are not sent yet
 channels : names of all that there are
 tried : [{channel, address, subject, error, again_at}]; `error` is null where the message was taken
 waiting, silenced : messages that are still to be sent, and how many of them a silence holds
@@ -24,7 +24,14 @@ def recipients_view(result: Recipients) -> View:
     """Who is told, by which channel."""
     active = [one for one in result.recipients if one.active]
     entries = [
-        {"channel": one.channel, "address": one.address, "digest": one.digest, "active": one.active, "waiting": one.waiting}
+        {
+            "number": one.number,
+            "channel": one.channel,
+            "address": one.address,
+            "digest": one.digest,
+            "active": one.active,
+            "waiting": one.waiting,
+        }
         for one in result.recipients
     ]
     table = Table(
@@ -40,15 +47,16 @@ def recipients_view(result: Recipients) -> View:
             for one in result.recipients
         ),
         words=(0, 1, 2, 3),
+        name="recipients",
+        keys=tuple(one.number for one in result.recipients),
     )
-    none = f"Nobody is told of alarms; enter somebody: elastogeo history recipient {result.channels[0]} ADDRESS"
     return View(
         kind="Recipients",
         title="alarms",
         subtitle="",
         origin="",
         head=(("Channels", ", ".join(result.channels)),),
-        sentence=f"{counted(len(active), 'recipient').capitalize()} of alarms." if active else none,
+        sentence=f"{counted(len(active), 'recipient').capitalize()} of alarms." if active else "Nobody is told of alarms.",
         values=(),
         picture=None,
         checks=(),
@@ -56,6 +64,7 @@ def recipients_view(result: Recipients) -> View:
         rows=entries,
         tables=(table,) if entries else (),
         sections=(Section("Recipients", tables=(table,)),) if entries else (),
+        advice=() if active else (f"Enter somebody: elastogeo history recipient {result.channels[0]} ADDRESS",),
     )
 
 

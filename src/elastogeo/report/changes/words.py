@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import floor, isfinite, log10
 
-from elastogeo.changes import ALARM, NO_BASELINE, OVERDUE, STEADY, SUSPECT, WATCH, IndicatorState
+from elastogeo.changes import ALARM, NO_BASELINE, OVERDUE, STEADY, SUSPECT, WATCH, IndicatorState, Kind
 from elastogeo.report.numbers import UNKNOWN, DisplayUnit, display_unit, pretty, significant
 
 MARKS = {ALARM: "■", SUSPECT: "◆", WATCH: "▲", OVERDUE: "◷", STEADY: "●", NO_BASELINE: "–"}
@@ -28,6 +28,19 @@ def marked(state: str) -> str:
 def shown_unit(unit: str) -> DisplayUnit:
     """The unit in which an indicator is shown, always the same: charts of one kind can be compared."""
     return _UNITS.get(unit) or display_unit(unit, 0.0)
+
+
+def taken(
+    kind: Kind, lower: float | None = None, upper: float | None = None, matters: float | None = None
+) -> tuple[float | None, float | None, float | None]:
+    """A tolerance as a person says it, in the unit shown (what matters in % where the kind is relative), as it is kept."""
+    unit = shown_unit(kind.unit).factor
+    share = 100.0 if kind.relative else unit
+    return (
+        None if lower is None else lower / unit,
+        None if upper is None else upper / unit,
+        None if matters is None else matters / share,
+    )
 
 
 def title_of(name: str) -> str:

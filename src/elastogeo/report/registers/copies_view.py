@@ -123,4 +123,4 @@ def _badge(result: KeptCopies) -> Badge:
 def _advice(result: KeptCopies) -> str:
     if not result.folder:
         return "Set ELASTOGEO_BACKUPS to a folder, on another disk if there is one; then backups can be made from here."
-    return "A backup on the disk of the history is lost with it: let ELASTOGEO_BACKUPS name a folder of another, or copy it there."
+    return "A backup on the disk of the history is lost with it: let ELASTOGEO_BACKUPS name a folder of another disk."

@@ -6,6 +6,7 @@ instrument : the same of one
 tests : [{number, name, machine, series, at, expired}]; `expired`: the calibration had run out when it was made
 alarms : [{number, state, at}]
 events : [{at, kind, note, who}]
+simulated : from what the tests are simulated, or null
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from elastogeo.changes import (
     KeptInstruments,
     TestWith,
 )
-from elastogeo.report.days import date_said, days_said, iso_date, short_date
+from elastogeo.report.days import date_said, days_said, iso_date, short_date, simulated_said
 from elastogeo.report.document import document
 from elastogeo.report.text import listed
 from elastogeo.report.view import Badge, Section, Table, View, lines, views
@@ -81,13 +82,16 @@ def instruments_view(result: KeptInstruments) -> View:
         kind="Instruments",
         title=result.store,
         subtitle="",
-        origin="",
+        origin=simulated_said(result.simulated),
         head=(),
         sentence=_answer(result),
         values=(),
         picture=None,
         checks=(),
-        document=document("elastogeo.instruments/1", {"now": iso_date(result.now), "instruments": entries}),
+        document=document(
+            "elastogeo.instruments/1",
+            {"now": iso_date(result.now), "instruments": entries, "simulated": result.simulated or None},
+        ),
         rows=[{name: value for name, value in entry.items() if name != "calibrations"} for entry in entries],
         tables=(table,) if entries else (),
         sections=(Section("Instruments", tables=(table,)),) if entries else (),
@@ -125,11 +129,13 @@ def instrument_view(result: InstrumentRecord) -> View:
         words=(0, 1, 2, 3),
         name="events",
     )
+    rows = [asdict(t) | {"at": iso_date(t.at)} for t in result.tests]
     found = {
         "now": iso_date(result.now),
         "instrument": _entry(one),
-        "tests": [asdict(t) | {"at": iso_date(t.at)} for t in result.tests],
+        "tests": rows,
         "alarms": [{"number": number, "state": state, "at": iso_date(at)} for number, state, at in result.alarms],
+        "simulated": result.simulated or None,
         "events": [{"at": iso_date(e.date), "kind": e.kind, "note": e.note, "who": e.who} for e in result.events],
     }
     named = (("Calibrations", calibrations), ("Alarms", alarms), ("Tests", tests), ("Events", events))
@@ -137,14 +143,18 @@ def instrument_view(result: InstrumentRecord) -> View:
         kind="Instrument",
         title=one.serial,
         subtitle=one.kind,
-        origin="",
-        head=(("Tests", str(one.tests)), ("Last test", date_said(one.last_test)), ("Machines", listed(one.machines))),
+        origin=simulated_said(result.simulated),
+        head=(
+            ("Tests", str(one.tests)),
+            ("Last test", date_said(one.last_test)),
+            ("Machines", listed(one.machines) if one.machines else ""),
+        ),
         sentence=f"{_capital(_standing(one, result.now))}.",
         values=(),
         picture=None,
         checks=(),
         document=document("elastogeo.instrument/1", found),
-        rows=found["tests"],
+        rows=rows,
         tables=tuple(table for _, table in named if table.rows),
         sections=tuple(Section(title, tables=(table,)) for title, table in named if table.rows),
         badge=_badge(result),

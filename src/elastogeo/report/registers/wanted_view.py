@@ -7,6 +7,7 @@ indicators : [{name, unit, mean, now, lower, upper, matters, matters_unit, by_de
     `matters` is the least change that is an alarm, `by_default` whether it is the kind's own
 tests : [{number, name, at, temperature_degC, aside, in_baseline, state}], the last first
 baselines : all that were set, the last first
+simulated : from what the tests are simulated, or null
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ from elastogeo.changes import (
 from elastogeo.report.changes.words import MARKS, TONES, marked, shown_unit, value_said
 from elastogeo.report.days import date_said, iso_date, short_date, simulated_said
 from elastogeo.report.document import document
-from elastogeo.report.numbers import significant
-from elastogeo.report.view import Badge, Section, Table, View, line_of, lines, views
+from elastogeo.report.numbers import pretty, significant
+from elastogeo.report.view import Badge, KeyValue, Section, Table, View, line_of, lines, views
 
 _PERCENT = 100.0
 
@@ -86,13 +87,15 @@ def settings_view(result: KeptSettings) -> View:
         kind="Settings",
         title=result.store,
         subtitle="",
-        origin="",
+        origin=simulated_said(result.simulated),
         head=(),
         sentence=_answer(result),
         values=(),
         picture=None,
         checks=(),
-        document=document("elastogeo.settings/1", {"now": iso_date(result.now), "series": entries}),
+        document=document(
+            "elastogeo.settings/1", {"now": iso_date(result.now), "series": entries, "simulated": result.simulated or None}
+        ),
         rows=[entry | {"baseline": entry["baseline"] is not None} for entry in entries],
         tables=(table,) if entries else (),
         sections=(Section("Series", tables=(table,)),) if entries else (),
@@ -105,13 +108,22 @@ def series_view(result: SeriesRecord) -> View:
     one, verdict = result.wanted, result.verdict
     by_name = {state.name: state for state in verdict.indicators}
     limits = Table(
-        ("Indicator", "Unit", "Baseline", "Now", "Least", "Greatest", "Matters from", "Of", "Said by"),
+        ("Indicator", "Unit", "Baseline", "Now", "Least", "Greatest", "A change matters from", "As", "Said by"),
         tuple(_limits(wanted, by_name[wanted.name]) for wanted in result.indicators),
         words=(0, 1, 7, 8),
         name="limits",
         keys=tuple(wanted.name for wanted in result.indicators),
         note="Beyond least or greatest the machine is out of its tolerance. A change smaller than the one that matters is "
         "no alarm, however sure it is; where nobody said one, it is that of the kind.",
+    )
+    fields = Table(
+        ("Least", "Greatest", "Unit", "A change matters from", "Unit"),
+        tuple(
+            (lower, upper, unit, matters, share)
+            for lower, upper, matters, unit, share in map(entered_values, result.indicators)
+        ),
+        name="fields",
+        keys=limits.keys,
     )
     tests = Table(
         ("Date", "Test", "Air [°C]", "State"),
@@ -137,10 +149,11 @@ def series_view(result: SeriesRecord) -> View:
         words=(0, 2, 3, 4),
         name="baselines",
     )
+    rows = [_indicator(wanted, by_name[wanted.name]) for wanted in result.indicators]
     found = {
         "now": iso_date(result.now),
         "wanted": _entry(one),
-        "indicators": [_indicator(wanted, by_name[wanted.name]) for wanted in result.indicators],
+        "indicators": rows,
         "tests": [
             {
                 "number": test.key,
@@ -168,12 +181,15 @@ def series_view(result: SeriesRecord) -> View:
             ("Next test", "" if verdict.due is None else line_of(verdict.due)),
         ),
         sentence=_series_answer(result),
-        values=(),
+        values=(
+            KeyValue("Interval", _entered(one.interval), "days", "between tests"),
+            KeyValue("Grace", _entered(one.grace), "days", "that a test may be late"),
+        ),
         picture=None,
         checks=(),
         document=document("elastogeo.series/1", found),
-        rows=found["indicators"],
-        tables=tuple(table for _, table in named if table.rows),
+        rows=rows,
+        tables=(*(table for _, table in named if table.rows), fields),
         sections=tuple(Section(title, tables=(table,)) for title, table in named if table.rows),
         badge=Badge(MARKS[verdict.state], verdict.state.capitalize(), TONES[verdict.state]),
     )
@@ -196,18 +212,9 @@ def _entered(value: float | None) -> str:
 def _limits(one: WantedOfIndicator, state: IndicatorState) -> tuple[str, ...]:
     lower, upper, matters, unit, share = entered_values(one)
     said = f"{one.who}: {one.why} ({short_date(one.set_at)})" if one.set_at is not None else ""
-    by_default = f"{share}, of its kind" if one.relevance is None else share
-    return (
-        one.name,
-        unit,
-        value_said(state, state.mean),
-        value_said(state, state.now),
-        lower,
-        upper,
-        matters,
-        by_default,
-        said,
-    )
+    whose = "of its kind" if one.relevance is None else "set"
+    values = (value_said(state, state.mean), value_said(state, state.now), pretty(lower), pretty(upper))
+    return one.name, unit, *values, f"{matters} {share}", whose, said
 
 
 def _indicator(one: WantedOfIndicator, state: IndicatorState) -> dict[str, object]:

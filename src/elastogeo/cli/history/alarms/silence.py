@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime, timedelta
 from typing import Annotated
 
 import typer
@@ -26,27 +25,11 @@ def silence(
       elastogeo history silence "Mill 3" --until now --why "runs again"
     """
     from elastogeo.cli import screen
+    from elastogeo.history.alarms import end_of
 
-    end = _end(until)
+    end = end_of(until, "--until")
     with eg.History(store, who=who) as history:
         history.silence(machine, end, why)
     screen.say(
         f"{machine} is not silent any more." if end is None else f"{machine} is silent until {end:%Y-%m-%d %H:%M %Z}."
     )
-
-
-def _end(until: str) -> datetime | None:
-    """When a silence ends: a day ends at its midnight, where this computer is; None: now."""
-    if until == "now":
-        return None
-    try:
-        end = datetime.fromisoformat(until)
-        if len(until) <= len("2026-12-24"):
-            end += timedelta(days=1)
-        end = end if end.tzinfo is not None else end.astimezone()
-        end.astimezone(UTC)  # as it is kept: the last hours of the calendar are of no year there
-    except (ValueError, OverflowError):
-        raise eg.InputError(
-            f"--until is {until!r}; give a day, as 2026-12-24, a time, as 2026-12-24T12:00, or now"
-        ) from None
-    return end

@@ -34,21 +34,13 @@ def tolerance(
       elastogeo history tolerance "Mill 3" "stiffness X" --lower 13 --why "roughing of part 4711"
     """
     from elastogeo.cli import screen
-    from elastogeo.report.changes import shown_unit
+    from elastogeo.report.changes import shown_unit, taken
 
     with eg.History(store, who=who) as history:
         kind = history.kind(machine, indicator, series)
         unit = shown_unit(kind.unit)
-        share = 0.01 if kind.relative else 1 / unit.factor
-        history.set_tolerance(
-            machine,
-            indicator,
-            series,
-            why=why,
-            lower=None if lower is None else lower / unit.factor,
-            upper=None if upper is None else upper / unit.factor,
-            relevance=None if matters is None else matters * share,
-        )
+        least, most, relevance = taken(kind, lower, upper, matters)
+        history.set_tolerance(machine, indicator, series, why=why, lower=least, upper=most, relevance=relevance)
     said = [
         "" if lower is None else f"at least {lower:g} {unit.name}",
         "" if upper is None else f"at most {upper:g} {unit.name}",

@@ -43,8 +43,8 @@ def _is_address(text: str) -> bool:
 
 def send(message: Message, address: str, settings: Settings) -> None:
     """Hand the message to the server."""
-    letter = _letter(message, address, settings)
     host = _host(settings)
+    letter = _letter(message, address, settings)
     try:
         with _session(host, settings) as server:
             server.send_message(letter)
