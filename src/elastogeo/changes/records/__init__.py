@@ -5,8 +5,8 @@ from elastogeo.changes.records.audit_trail import TRAIL_WHOLE, AuditFault, Audit
 from elastogeo.changes.records.campaigns import KeptCampaign
 from elastogeo.changes.records.compared import (
     FEW_RUNS,
-    NOTHING_IN_COMMON,
     NOT_ANALYSED,
+    NOTHING_IN_COMMON,
     OTHER_MACHINE,
     WITHIN_SCATTER,
     CircleTrace,
