@@ -34,13 +34,18 @@ def plain_store(tmp_path: Path) -> Store:
 def test_a_drawing_is_made_once_and_again_when_asked(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
     test = keep_test(store, keep_series(store), files_of(EXAMPLES / "static-rig"))
     asked = []
-    monkeypatch.setattr(module, "ask_again", lambda *given: (asked.append(given), {}, {"view": len(asked)}, "")[1:])
-    assert drawn(store, test) == drawn(store, test) == {"view": 1}
+    monkeypatch.setattr(
+        module, "ask_again", lambda *given: (asked.append(given), {}, {"schema": module.SCHEMA, "view": len(asked)}, "")[1:]
+    )
+    assert [drawn(store, test)["view"] for _ in range(2)] == [1, 1]
     assert draw(store, test) == analyse(store, test)
     draw(store, test, again=True)
-    assert drawn(store, test) == {"view": 2}
+    assert drawn(store, test)["view"] == 2
     with read(store) as connection:
         assert connection.execute(select(func.count()).select_from(schema.drawing)).scalar_one() == 1
+    monkeypatch.setattr(module, "SCHEMA", "elastogeo.drawing/99")
+    with read(store) as connection:
+        assert drawing_of(connection, 1) is None
 
 
 def test_a_drawing_is_the_view_of_the_test(plain_store: Store) -> None:
@@ -52,6 +57,9 @@ def test_a_drawing_is_the_view_of_the_test(plain_store: Store) -> None:
     assert (again.sentence, again.checks, again.tables) == (view.sentence, view.checks, view.tables)
     assert found["causes"] is None
     assert set(found["view"]["pictures"]) == set(view.pictures)
+    with read(plain_store) as connection:
+        kept = connection.execute(select(schema.analysis.c.document_sha256)).scalar_one()
+    assert found["document_sha256"] == kept
 
 
 def test_a_circle_is_drawn_with_its_causes(plain_store: Store) -> None:

@@ -11,7 +11,7 @@ from sqlalchemy import Connection, delete, insert, select
 
 from elastogeo.errors import InputError
 from elastogeo.history.analyses.analysing import PROGRAM, analyse
-from elastogeo.history.analyses.computation import ask_again
+from elastogeo.history.analyses.computation import ask_again, sha256_of
 from elastogeo.history.analyses.raw import raw_files
 from elastogeo.history.store import Store, now, read, write
 from elastogeo.history.store.schema import analysis, drawing
@@ -19,7 +19,8 @@ from elastogeo.report import causes_document, kept_view, view_of
 from elastogeo.result import Result
 from elastogeo.version import VERSION
 
-SCHEMA = "elastogeo.drawing/1"
+SCHEMA = "elastogeo.drawing/2"
+"""What was drawn otherwise is drawn anew."""
 
 
 def draw(store: Store, test: int, who: str = PROGRAM, again: bool = False) -> int:
@@ -51,7 +52,7 @@ def draw(store: Store, test: int, who: str = PROGRAM, again: bool = False) -> in
     """
     key = analyse(store, test, who)
     with read(store) as connection:
-        if not again and _drawn(connection, key):
+        if not again and drawing_of(connection, key) is not None:
             return key
         refused = connection.execute(select(analysis.c.error).where(analysis.c.id == key)).scalar_one()
         raw = raw_files(connection, test)
@@ -73,16 +74,19 @@ def drawing_of(connection: Connection, key: int) -> dict[str, Any] | None:
     Returns
     -------
     dict or None
-        `schema`; `view` as `kept_view` gave it; `causes` as `causes_document` gave it, None without a circle.
+        `schema`; `view` as `kept_view` gave it; `causes` as `causes_document` gave it, None without a circle;
+        `document_sha256` of the result that was drawn: that of the analysis, if the raw files say the same again.
     """
-    found = select(drawing.c.content).where(drawing.c.analysis == key, drawing.c.software == VERSION)
-    return connection.execute(found).scalar_one_or_none()
-
-
-def _drawn(connection: Connection, key: int) -> bool:
-    found = select(drawing.c.id).where(drawing.c.analysis == key, drawing.c.software == VERSION)
-    return connection.execute(found).scalar_one_or_none() is not None
+    chosen = select(drawing.c.content).where(drawing.c.analysis == key, drawing.c.software == VERSION)
+    found: dict[str, Any] | None = connection.execute(chosen).scalar_one_or_none()
+    return found if found is not None and found["schema"] == SCHEMA else None
 
 
 def _content(result: Result) -> dict[str, Any]:
-    return {"schema": SCHEMA, "view": kept_view(view_of(result)), "causes": causes_document(result)}
+    view = view_of(result)
+    return {
+        "schema": SCHEMA,
+        "view": kept_view(view),
+        "causes": causes_document(result),
+        "document_sha256": sha256_of(dict(view.document)),
+    }

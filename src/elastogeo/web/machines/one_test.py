@@ -17,8 +17,15 @@ from elastogeo.web.pages import Pages
 from elastogeo.web.templating import page
 
 pages = Pages()
-Drawn = tuple[KeptView, dict[str, Any] | None]
-"""What is drawn of a test: its view, and its causes if it is a circle."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """What is drawn of a test: its view, its causes if it is a circle, whether the raw files said the same again."""
+
+    kept: KeptView
+    causes: Mapping[str, Any] | None
+    same: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,9 +47,9 @@ def one_test(
     """
     kept = _kept(asked, key)
     found = _drawn(asked, kept)
-    view, causes = view_of(kept), None if found is None else found[1]
+    view, causes = view_of(kept), None if found is None else found.causes
     if asked.by_htmx and part is not None:
-        inside = {"section": _section(found, part), "kept": None if found is None else found[0]}
+        inside = {"section": _section(found, part), "kept": None if found is None else found.kept}
         return Shown("machines/test_section.html.j2", context=inside)
     template = "machines/test_trace.html.j2" if asked.by_htmx and causes is not None else "machines/test.html.j2"
     more = {} if causes is None else {"causes": causes["causes"], "columns": causes["columns"]["runs"]}
@@ -65,7 +72,8 @@ def columns(asked: Ask, key: int, force: float | None = None) -> Response:
     tag = asked.tag()
     if tag in asked.request.headers.get("if-none-match", ""):
         return Response(status_code=304, headers={"ETag": tag})
-    causes = (_drawn(asked, _kept(asked, key)) or (None, None))[1]
+    found = _drawn(asked, _kept(asked, key))
+    causes = None if found is None else found.causes
     if causes is None:
         raise NotFound("This test has no circle, or it is not drawn yet.")
     chosen = _level(causes, force)
@@ -133,7 +141,10 @@ def _drawn(asked: Asked, kept: KeptTest) -> Drawn | None:
     if kept.analysis is None:
         return None
     found = asked.history.drawing(kept.analysis.key)
-    return None if found is None else (view_kept(found["view"], kept.analysis.document), found["causes"])
+    if found is None:
+        return None
+    same = found["document_sha256"] == kept.analysis.document_sha256
+    return Drawn(view_kept(found["view"], kept.analysis.document), found["causes"], same)
 
 
 def _drawing_job(asked: Asked, kept: KeptTest) -> KeptJob | None:
@@ -149,11 +160,12 @@ def _drawing_job(asked: Asked, kept: KeptTest) -> KeptJob | None:
 
 def _context(asked: Asked, kept: KeptTest, found: Drawn | None, force: float | None) -> dict[str, Any]:
     """What the templates of a test need."""
-    causes = None if found is None else found[1]
+    causes = None if found is None else found.causes
     return {
         "key": kept.key,
         "test": kept,
-        "kept": None if found is None else found[0],
+        "kept": None if found is None else found.kept,
+        "same": None if found is None else found.same,
         "causes": causes,
         "circle": None if causes is None else _circle(causes, force),
         "job": None if found is not None else _drawing_job(asked, kept),
@@ -173,7 +185,7 @@ def _circle(causes: Mapping[str, Any], force: float | None) -> Circle:
 
 
 def _section(found: Drawn | None, part: int) -> Section:
-    sections = () if found is None else found[0].view.sections
+    sections = () if found is None else found.kept.view.sections
     if part >= len(sections):
         raise NotFound("There is no such part of this test.")
     return sections[part]
@@ -183,7 +195,7 @@ def _report(asked: Asked, key: int) -> KeptView:
     found = _drawn(asked, _kept(asked, key))
     if found is None:
         raise NotFound("The report is not drawn yet; open the page of the test, wait until it is drawn, and come back.")
-    return found[0]
+    return found.kept
 
 
 def _rows(kept: KeptTest) -> list[Mapping[str, Any]]:
