@@ -20,10 +20,12 @@ from elastogeo.changes.fleets import (
     as_suspected,
     fleet_state,
     machine_row,
+    machine_shown,
     machine_state,
 )
 from elastogeo.changes.instruments import InstrumentMove, instrument_moves
 from elastogeo.changes.kinds import KINDS, Kind
+from elastogeo.changes.looks import FleetPart, Trend, states_of
 from elastogeo.changes.priors import Prior, default_prior, fleet_prior
 from elastogeo.changes.records import (
     CHANGED,
@@ -31,6 +33,7 @@ from elastogeo.changes.records import (
     DATABASE_SOUND,
     DOCUMENTS_WHOLE,
     FEW_RUNS,
+    FOUND_KINDS,
     MISSING,
     NO_STRAY_FILES,
     NOT_ANALYSED,
@@ -55,6 +58,8 @@ from elastogeo.changes.records import (
     ComparedTest,
     ComparedTests,
     Differing,
+    Found,
+    FoundEntry,
     IndicatorDifference,
     InstrumentRecord,
     KeptAccounts,
@@ -124,6 +129,7 @@ __all__ = [
     "DRIFT",
     "DUE",
     "FEW_RUNS",
+    "FOUND_KINDS",
     "KINDS",
     "MACHINE_STATES",
     "MISSING",
@@ -170,7 +176,10 @@ __all__ = [
     "DueDate",
     "Event",
     "FaultFound",
+    "FleetPart",
     "FleetState",
+    "Found",
+    "FoundEntry",
     "Indicator",
     "IndicatorDifference",
     "IndicatorState",
@@ -217,6 +226,7 @@ __all__ = [
     "TestOfSeries",
     "TestWith",
     "Tolerance",
+    "Trend",
     "Verified",
     "WantedOfIndicator",
     "WantedOfSeries",
@@ -235,6 +245,7 @@ __all__ = [
     "instrument_moves",
     "judge",
     "machine_row",
+    "machine_shown",
     "machine_state",
     "recomputed_same",
     "reference_from",
@@ -242,6 +253,7 @@ __all__ = [
     "shewhart_run_length",
     "signatures_of",
     "start",
+    "states_of",
     "step",
     "trail_whole",
     "try_rule",

@@ -35,6 +35,8 @@ class MachineState(Result):
     open_alarms : int
     held_by : str
         The instrument whose alarm holds its alarms back; empty if none does.
+    rows : tuple of MachineRow
+        Every series as it was judged last, the worst first, where only some are in `series`; else empty.
     """
 
     machine: str
@@ -43,6 +45,7 @@ class MachineState(Result):
     overdue: dict[str, float]
     open_alarms: int
     held_by: str = ""
+    rows: tuple[MachineRow, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -109,6 +112,7 @@ class MachineRow(Part):
     key: int | None = None
     grace: float = 0.0
     open_alarms: int = 0
+    series_key: int | None = None
     confirmed: bool = False
     tests_since: int = 0
 
@@ -161,6 +165,30 @@ def machine_state(machine: str, verdicts: Iterable[ChangeVerdict]) -> MachineSta
         overdue=late,
         open_alarms=len(opened),
         held_by=next((alarm.held_by for alarm in opened if alarm.held_by), ""),
+    )
+
+
+def machine_shown(machine: str, verdicts: Iterable[ChangeVerdict], rows: Iterable[MachineRow], now: float) -> MachineState:
+    """A machine from what was kept of each of its series, of which only some are judged anew.
+
+    Parameters
+    ----------
+    machine : str
+    verdicts : iterable of ChangeVerdict
+        Of the series that are shown in full, the one that is asked for first.
+    rows : iterable of MachineRow
+        Of all its series.
+    now : float [d]
+    """
+    every = tuple(sorted((_at(row, now) for row in rows), key=_order))
+    return MachineState(
+        machine=machine,
+        series=tuple(verdicts),
+        state=min((row.state for row in every), key=_rank, default=NO_BASELINE),
+        overdue={row.series: row.overdue for row in every if row.overdue > 0},
+        open_alarms=sum(row.open_alarms for row in every),
+        held_by=next((row.held_by for row in every if row.held_by), ""),
+        rows=every,
     )
 
 

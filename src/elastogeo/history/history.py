@@ -46,6 +46,7 @@ from elastogeo.history.intake.instruments import KnownInstrument, add_instrument
 from elastogeo.history.intake.machines import KnownMachine, add_machine, machine_named, machines
 from elastogeo.history.intake.notebook import notebook_of
 from elastogeo.history.intake.watching import EVERY, SETTLE, Seen, Watch
+from elastogeo.history.looking import Looking
 from elastogeo.history.names import KnownSeries, series_named, series_of_machine
 from elastogeo.history.records import Records
 from elastogeo.history.requirements.baselines import Chosen, choose, set_baseline
@@ -93,7 +94,7 @@ class Added:
         return self.imported is not None and self.imported.new
 
 
-class History(Records, Access, Tasks, Care):
+class History(Access, Care, Looking, Records, Tasks):
     """Machines and their tests over the years.
 
     Parameters

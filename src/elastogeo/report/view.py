@@ -91,6 +91,8 @@ class Table:
         By which a page picks it; empty where none does.
     keys : tuple of int or str
         What each row is of, a machine's or a test's key, of which a page makes a link; empty, or one a row.
+    tones : tuple of str
+        What each row is of, bad, care, good or none, as `Badge.tone`: the colour of its cell headed `state`.
     sparks : tuple of Plot
         A small trend for each row; empty, or one a row. Only pages show them.
     """
@@ -103,6 +105,7 @@ class Table:
     strong: tuple[int, ...] = ()
     name: str = ""
     keys: tuple[int | str, ...] = ()
+    tones: tuple[str, ...] = ()
     sparks: tuple[Plot, ...] = ()
 
 

@@ -110,7 +110,7 @@ def test_a_test_set_aside_stays_in_the_table_with_its_reason():
     view = view_of(guideway())
     tests = next(section for section in view.sections if section.title == "Tests").tables[0]
     row = next(row for row in tests.rows if row[1] == "test 20")
-    assert row[6:] == ("× set aside", "set aside")
+    assert row[6:] == ("○ set aside", "set aside")
 
 
 def test_a_suspect_test_asks_for_a_repeat_and_names_no_alarm():

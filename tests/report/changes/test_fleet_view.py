@@ -80,7 +80,7 @@ def test_an_alarm_of_another_cause_is_counted_beside_those_held_back():
 def test_a_large_fleet_shows_a_hundred_and_says_how_many_more():
     view = view_of(large())
     assert len(view.tables[0].rows) == 100
-    assert "100 more machines are in the JSON." in view.tables[0].note
+    assert "Machines 1 to 100 of 200; the JSON holds all." in view.tables[0].note
     assert len(view.document["rows"]) == 200
     assert view.sentence == "All 200 machines are as the baseline shows."
 

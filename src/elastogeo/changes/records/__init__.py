@@ -17,6 +17,7 @@ from elastogeo.changes.records.compared import (
     SettingDifference,
 )
 from elastogeo.changes.records.copies import KeptCheck, KeptCopies, KeptCopy
+from elastogeo.changes.records.found import FOUND_KINDS, Found, FoundEntry
 from elastogeo.changes.records.instruments import (
     Calibration,
     InstrumentRecord,
@@ -65,6 +66,7 @@ __all__ = [
     "DONE",
     "FAILED",
     "FEW_RUNS",
+    "FOUND_KINDS",
     "MISSING",
     "NOTHING_IN_COMMON",
     "NOT_ANALYSED",
@@ -92,6 +94,8 @@ __all__ = [
     "ComparedTest",
     "ComparedTests",
     "Differing",
+    "Found",
+    "FoundEntry",
     "IndicatorDifference",
     "InstrumentRecord",
     "KeptAccounts",

@@ -103,14 +103,23 @@ def note_held(connection: Connection, key: int, serial: str) -> None:
 
 def fleet(connection: Connection, at: datetime) -> FleetState:
     """All machines by their worst series, from what was kept when they were assessed: nothing is judged."""
-    rows = connection.execute(
-        select(machine, series.c.name.label("of"), series_state.c.verdict)
+    found = state_rows(connection)
+    return fleet_state(found, days(at), _moves(connection, found))
+
+
+def state_rows(connection: Connection, of: int | None = None) -> list[MachineRow]:
+    """Every series of every machine, or of one, as it was kept when it was assessed; a machine without any is one row."""
+    asked = (
+        select(machine, series.c.id.label("series"), series.c.name.label("of"), series_state.c.verdict)
         .outerjoin(series, series.c.machine == machine.c.id)
         .outerjoin(series_state, series_state.c.series == series.c.id)
         .order_by(machine.c.name, series.c.id)
     )
-    found = [replace(_machine_row(row.name, row.place, row.of, row.verdict), model=row.kind, key=row.id) for row in rows]
-    return fleet_state(found, days(at), _moves(connection, found))
+    rows = connection.execute(asked if of is None else asked.where(machine.c.id == of))
+    return [
+        replace(_machine_row(row.name, row.place, row.of, row.verdict), model=row.kind, key=row.id, series_key=row.series)
+        for row in rows
+    ]
 
 
 def _moves(connection: Connection, rows: Iterable[MachineRow]) -> tuple[InstrumentMove, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite
+from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 from elastogeo.changes import ALARM, DRIFT, NO_BASELINE, SUSPECT, ChangeVerdict, IndicatorState, as_suspected
@@ -68,16 +68,16 @@ def badge(verdict: ChangeVerdict) -> Badge:
     return Badge(MARKS[verdict.state], f"{title_of(verdict.state)}{since}{sure}{known}", TONES[verdict.state])
 
 
-def trend_picture(verdict: ChangeVerdict, one: IndicatorState, name: str = "trend") -> Picture:
-    """One indicator over time."""
+def trend_picture(verdict: ChangeVerdict, one: IndicatorState, name: str = "trend", since: float = -inf) -> Picture:
+    """One indicator over time; as plain shapes its tests since a day [d]."""
     off = f" It is {verdict.state}." if verdict.baseline is not None else ""
     return Picture(
         name,
         f"{title_of(one.name)} over time. {_caption(verdict, one)}",
         f"{title_of(one.name)} of {len(verdict.series)} tests over time.{off}",
         lambda: _drawn("trend_figure", verdict, one),
-        plain=lambda: trend_plot(verdict, one),
-        narrow=lambda: trend_plot(verdict, one, narrow=True),
+        plain=lambda: trend_plot(verdict, one, since),
+        narrow=lambda: trend_plot(verdict, one, since, narrow=True),
     )
 
 
@@ -177,7 +177,7 @@ def sections(verdict: ChangeVerdict, worst: IndicatorState | None) -> Iterator[S
     if len(verdict.series) and len(verdict.indicators) > 1:
         yield Section("Every indicator over time", pictures=(_every_picture(verdict),))
     if worst is not None and len(verdict.series):
-        yield Section("Tests", tables=(test_table(verdict, worst),))
+        yield Section("Tests", tables=(test_table(verdict, worst, 0),))
     yield Section("How it is judged", points=tuple(_how(verdict)))
 
 

@@ -1,6 +1,7 @@
 """A fleet as a JSON document, `elastogeo.fleet/1`.
 
 now, counts : when; machines by state, overdue ones also where they are in another state
+asked : {hall, model, state}, which rows there are; empty of any
 rows : [{id, name, hall, model, series, state, since, sentence, strip, last, due, overdue_days, points_to, held_by,
     simulated}]. The worst first; `strip` [{indicator, state, ratio}], `ratio` of |T| to its limit.
 facets : {hall, model, state}, each how many machines of what
@@ -10,7 +11,8 @@ instruments : [{serial, since, machines, series, indicators, shifts, shifts95, o
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from elastogeo.changes import FleetState, MachineRow
@@ -19,15 +21,18 @@ from elastogeo.report.days import iso_date
 from elastogeo.report.document import document
 
 
-def fleet_json(fleet: FleetState) -> dict[str, Any]:
-    """The document of a fleet."""
+def fleet_json(
+    fleet: FleetState, shown: Sequence[MachineRow], asked: Mapping[str, str] = MappingProxyType({})
+) -> dict[str, Any]:
+    """The document of a fleet with the rows of these machines."""
     rows = fleet.machines
     return document(
         "elastogeo.fleet/1",
         {
             "now": iso_date(fleet.now),
             "counts": fleet.counts,
-            "rows": [_row(row) for row in rows],
+            "asked": {facet: asked.get(facet, "") for facet in ("hall", "model", "state")},
+            "rows": [_row(row) for row in shown],
             "facets": {
                 "hall": _counted(row.place for row in rows),
                 "model": _counted(row.model for row in rows),

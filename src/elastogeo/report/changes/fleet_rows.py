@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from math import isfinite
 
 from elastogeo.changes import (
@@ -17,8 +19,10 @@ from elastogeo.changes import (
     MachineRow,
 )
 from elastogeo.report.changes.answers import component_said
-from elastogeo.report.changes.words import MARKS, changed, marked, shown_unit, size_said
+from elastogeo.report.changes.words import MARKS, TONES, changed, marked, shown_unit, size_said
 from elastogeo.report.days import date_said, days_said, short_date
+from elastogeo.report.drawing.plots import Line, Mark, Plot, Shape
+from elastogeo.report.numbers import significant
 from elastogeo.report.text import listed
 from elastogeo.report.view import Table
 
@@ -73,8 +77,9 @@ def strip_said(row: MachineRow) -> str:
     return "".join(MARKS.get(state, MARKS[NO_BASELINE]) for _, state, _ in row.strip)
 
 
-def fleet_table(fleet: FleetState) -> Table:
-    """The machines, the worst first."""
+def fleet_table(fleet: FleetState, machines: Sequence[MachineRow], first: int = 0) -> Table:
+    """Some machines of a fleet, the worst first, from the one at `first` on."""
+    shown = machines[first : first + MOST_ROWS]
     rows = tuple(
         (
             row.machine,
@@ -86,19 +91,48 @@ def fleet_table(fleet: FleetState) -> Table:
             short_date(row.due),
             row.place,
         )
-        for row in fleet.machines[:MOST_ROWS]
+        for row in shown
     )
-    left = len(fleet.machines) - len(rows)
-    marks = ", ".join(f"{MARKS[state]} {state}" for state in (ALARM, SUSPECT, WATCH, STEADY, NO_BASELINE))
     return Table(
         ("machine", "state", "", "since", "indicators", "last test", "next due", "place"),
         rows,
         words=(0, 1, 2, 3, 4, 5, 6, 7),
         title="The worst first",
-        note=" ".join(filter(None, (f"Indicators: {marks}.", f"{left} more machines are in the JSON." if left > 0 else ""))),
+        note=" ".join(_notes(len(fleet.machines), len(machines), first, len(rows))),
         name="machines",
-        keys=tuple(row.key if row.key is not None else row.machine for row in fleet.machines[:MOST_ROWS]),
+        keys=tuple(row.key if row.key is not None else row.machine for row in shown),
+        tones=tuple(TONES[row.state] for row in shown),
+        sparks=tuple(strip_plot(row) for row in shown),
     )
+
+
+def _notes(every: int, fit: int, first: int, shown: int) -> Iterator[str]:
+    marks = ", ".join(f"{MARKS[state]} {state}" for state in (ALARM, SUSPECT, WATCH, STEADY, NO_BASELINE))
+    yield f"Indicators: {marks}."
+    if not fit and every:
+        yield "No machine fits what is asked for."
+    elif first or shown < fit:
+        yield f"Machines {first + 1} to {first + shown} of {fit}; the JSON holds all."
+
+
+_SHAPES = {ALARM: "square", SUSPECT: "diamond", WATCH: "up", STEADY: "circle"}
+_STEP = 13.0
+"""From one mark of a strip to the next [px]."""
+
+
+def strip_plot(row: MachineRow) -> Plot:
+    """A mark for each indicator, in their order, each with what it is."""
+    marks: list[Shape] = []
+    for k, (name, state, ratio) in enumerate(row.strip):
+        said = f"{name}: {state}{f', at {significant(ratio, 2)} of its limit' if isfinite(ratio) else ''}"
+        x, shape, kind = _STEP * (k + 0.5), _SHAPES.get(state, ""), TONES.get(state, "none")
+        if shape:
+            marks.append(Mark(x, 8, kind, shape, 4.0, said))
+        else:
+            marks.append(Line(((x - 4, 8), (x + 4, 8)), "soft", 1.6))
+    alike = Counter(state for _, state, _ in row.strip)
+    said = ", ".join(f"{count} {state}" for state, count in alike.items())
+    return Plot(_STEP * max(len(row.strip), 1), 16, tuple(marks), f"Indicators: {said}" if said else "")
 
 
 def move_said(move: InstrumentMove) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 from elastogeo.changes import ALARM, MACHINE_STATES, NO_BASELINE, OVERDUE, STEADY, SUSPECT, WATCH, FleetState
 from elastogeo.report.changes.fleet_document import fleet_json
@@ -10,10 +11,10 @@ from elastogeo.report.changes.fleet_rows import fleet_table, move_said, move_tab
 from elastogeo.report.changes.words import MARKS, TONES, title_of
 from elastogeo.report.days import date_said, simulated_said
 from elastogeo.report.text import listed
-from elastogeo.report.view import Badge, KeyValue, Section, View, views
+from elastogeo.report.view import Badge, KeyValue, Section, Table, View, views
 
 _MOST_NAMED = 3
-_MEANINGS = {
+MEANINGS = {
     ALARM: "a repeat confirmed a change, or none was made",
     SUSPECT: "repeat the test the same day",
     WATCH: "drifting, or a short baseline",
@@ -26,7 +27,12 @@ _MEANINGS = {
 @views(FleetState)
 def fleet_view(fleet: FleetState) -> View:
     """All that is shown of a fleet."""
-    document, table, moves = fleet_json(fleet), fleet_table(fleet), move_table(fleet)
+    return answered(fleet, fleet_json(fleet, fleet.machines), fleet_table(fleet, fleet.machines))
+
+
+def answered(fleet: FleetState, document: Mapping[str, Any], table: Table) -> View:
+    """The answer of a fleet, with this document and this table of machines."""
+    moves = move_table(fleet)
     tables = (*((moves,) if moves is not None else ()), table) if fleet.machines else ()
     return View(
         kind="Fleet",
@@ -96,7 +102,7 @@ def _values(fleet: FleetState) -> Iterator[KeyValue]:
     for state in (ALARM, SUSPECT, WATCH, STEADY, OVERDUE, NO_BASELINE):
         count = fleet.counts.get(state, 0)
         if count or state != SUSPECT:
-            yield KeyValue(f"{MARKS[state]} {title_of(state)}", str(count), "", _MEANINGS[state])
+            yield KeyValue(f"{MARKS[state]} {title_of(state)}", str(count), "", MEANINGS[state])
 
 
 def _machines(count: int) -> str:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from elastogeo.changes import ALARM, OVERDUE, ChangeVerdict, MachineState
+from elastogeo.changes import ALARM, OVERDUE, ChangeVerdict, MachineRow, MachineState
 from elastogeo.report.changes.answers import sentence_of_change, series_said, worst_of
 from elastogeo.report.changes.change_view import change_view
 from elastogeo.report.changes.document import answer_entries, change_entries
+from elastogeo.report.changes.fleet_rows import row_said
 from elastogeo.report.changes.points import points_of
 from elastogeo.report.changes.words import MARKS, TONES, marked, predicate, title_of
 from elastogeo.report.days import days_said, iso_date, short_date
@@ -36,15 +37,17 @@ def machine_state_view(machine: MachineState) -> View:
             document=whole,
         )
     view = change_view(machine.series[0])
-    several = len(machine.series) > 1
-    table = series_table(machine)
+    several = max(len(machine.series), len(machine.rows)) > 1
+    table = _kept_series(machine) if machine.rows else series_table(machine)
     names = {verdict.series.name: series_said(verdict) for verdict in machine.series}
     late = tuple(f"{names.get(name, name)}: overdue by {days_said(days)}." for name, days in machine.overdue.items())
+    first = "" if machine.rows else "the worst: "
+    count = max(len(machine.series), len(machine.rows))
     return replace(
         view,
         kind="Machine",
         title=machine.machine,
-        subtitle=f"{len(machine.series)} series; the worst: {series_said(machine.series[0])}" if several else view.subtitle,
+        subtitle=f"{count} series; {first}{series_said(machine.series[0])}" if several else view.subtitle,
         badge=_badge(machine, view),
         advice=(*view.advice, *late) if several else view.advice,
         document=whole,
@@ -80,11 +83,31 @@ def series_table(machine: MachineState) -> Table:
     return Table(headings, rows, words=(0, 1, 2, 3, 5, 6), title="The worst first", name="series", keys=names)
 
 
+def _kept_series(machine: MachineState) -> Table:
+    """The series of a machine as they were judged last, the worst first; the one that is shown is strong."""
+    shown = {series_said(verdict) for verdict in machine.series}
+    rows = tuple(
+        (row.series, marked(row.state), row_said(row), short_date(row.since), short_date(row.last_test), short_date(row.due))
+        for row in machine.rows
+    )
+    return Table(
+        ("series", "state", "", "since", "last test", "next due"),
+        rows,
+        words=(0, 1, 2, 3, 4, 5),
+        title="The worst first",
+        strong=tuple(k for k, row in enumerate(machine.rows) if row.series in shown),
+        name="series",
+        keys=tuple(row.series if row.series_key is None else row.series_key for row in machine.rows),
+        tones=tuple(TONES[row.state] for row in machine.rows),
+    )
+
+
 def machine_json(machine: MachineState) -> dict[str, Any]:
     """A machine as a JSON document, `elastogeo.machine/1`: of its worst series what `elastogeo.change/1` says, and more.
 
     machine, state, open_alarms, held_by : whose; the worst of its series, or `overdue`
-    series : [{name, state, since, sentence, tests, last, due, overdue_days}], the worst first
+    series : [{name, state, since, sentence, tests, last, due, overdue_days}], the worst first; `tests` and the sentence in
+        full of those that were judged for this
     verdict : {state, since, sentence, points_to, cannot_tell, next, next_test, checks}
     indicators, chart, causes, alarm, baseline : as in `elastogeo.change/1`
     tests : [{test, series, date, mark, temperature, instrument}] of all series, the newest first
@@ -94,7 +117,8 @@ def machine_json(machine: MachineState) -> dict[str, Any]:
     said = {} if worst is None else change_entries(worst)
     answer = {} if worst is None else {**answer_entries(worst), "checks": verdict_entries(worst.verdict)}
     kept = ("simulated", "alarm", "indicators", "chart", "causes", "baseline", "alpha", "judged_at")
-    due = [verdict.due.at for verdict in machine.series if verdict.due is not None and verdict.due.at is not None]
+    judged = [verdict.due.at for verdict in machine.series if verdict.due is not None]
+    due = [at for at in ([row.due for row in machine.rows] or judged) if at is not None]
     return document(
         "elastogeo.machine/1",
         {
@@ -102,13 +126,31 @@ def machine_json(machine: MachineState) -> dict[str, Any]:
             "state": machine.state,
             "open_alarms": machine.open_alarms,
             "held_by": machine.held_by,
-            "series": [_series(machine, verdict) for verdict in machine.series],
+            "series": _every_series(machine),
             "verdict": answer,
             **{key: said.get(key, [] if key in ("indicators", "causes") else None) for key in kept},
             "tests": [entry for verdict in machine.series for entry in _tests(verdict)],
             "due": iso_date(min(due, default=None)),
         },
     )
+
+
+def _every_series(machine: MachineState) -> list[dict[str, Any]]:
+    judged = {series_said(verdict): _series(machine, verdict) for verdict in machine.series}
+    return [judged.get(row.series) or _kept(row) for row in machine.rows] if machine.rows else list(judged.values())
+
+
+def _kept(row: MachineRow) -> dict[str, Any]:
+    return {
+        "name": row.series,
+        "state": row.state,
+        "since": iso_date(row.since),
+        "sentence": row_said(row),
+        "tests": None,
+        "last": iso_date(row.last_test),
+        "due": iso_date(row.due),
+        "overdue_days": row.overdue,
+    }
 
 
 def _series(machine: MachineState, verdict: ChangeVerdict) -> dict[str, Any]:

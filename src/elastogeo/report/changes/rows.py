@@ -14,6 +14,7 @@ from elastogeo.report.changes.points import ASIDE, BASELINE, QUIET, Point, point
 from elastogeo.report.changes.trend_plot import spark_plot
 from elastogeo.report.changes.words import (
     MARKS,
+    TONES,
     change_interval_said,
     change_said,
     marked,
@@ -29,6 +30,7 @@ from elastogeo.report.view import Table
 
 MOST_TESTS = 60
 """Tests in the table; the JSON holds all."""
+_TONES = {**TONES, QUIET: "good"}
 _FAINT = 0.005
 """Score below which a component is not listed."""
 
@@ -46,6 +48,7 @@ def indicator_table(verdict: ChangeVerdict) -> Table:
         strong=strong,
         name="indicators",
         keys=tuple(one.name for one in verdict.indicators),
+        tones=tuple(TONES[one.state] for one in verdict.indicators),
         sparks=tuple(spark_plot(verdict, one) for one in verdict.indicators),
     )
 
@@ -75,19 +78,20 @@ def _note_of_indicators(verdict: ChangeVerdict) -> str:
     )
 
 
-def test_table(verdict: ChangeVerdict, one: IndicatorState) -> Table:
-    """The tests, the newest first, each with its mark and what it says of one indicator."""
+def test_table(verdict: ChangeVerdict, one: IndicatorState, first: int) -> Table:
+    """The tests, the newest first, each with its mark and what it says of one indicator; from the one at `first` on."""
     shown = shown_unit(one.kind.unit)
-    points = points_of(verdict, one)[::-1]
-    rows = tuple(_test_row(one, point, verdict.series.instruments[point.place]) for point in points[:MOST_TESTS])
-    left = len(points) - len(rows)
+    points = points_of(verdict, one)[::-1][first : first + MOST_TESTS]
+    rows = tuple(_test_row(one, point, verdict.series.instruments[point.place]) for point in points)
+    left = len(verdict.series) - first - len(rows)
     return Table(
-        ("date", "test", f"{one.name} [{shown.name}]", "change", "air [°C]", "instrument", "", "remark"),
+        ("date", "test", f"{one.name} [{shown.name}]", "change", "air [°C]", "instrument", "state", "remark"),
         rows,
         words=(0, 1, 5, 6, 7),
         note=f"{left} older tests are in the JSON." if left > 0 else "",
         name="tests",
-        keys=tuple(point.test for point in points[:MOST_TESTS]),
+        keys=tuple(point.test for point in points),
+        tones=tuple(_TONES.get(point.mark, "none") for point in points),
     )
 
 
@@ -106,7 +110,7 @@ def _test_row(one: IndicatorState, point: Point, instrument: str) -> tuple[str, 
 
 
 def _mark_said(mark: str) -> str:
-    words = {QUIET: MARKS["steady"], BASELINE: "○ baseline", ASIDE: "× set aside"}
+    words = {QUIET: marked("steady"), BASELINE: "● baseline", ASIDE: "○ set aside"}
     return words.get(mark) or (marked(mark) if mark in MARKS else f"× {mark}")
 
 
