@@ -14,6 +14,7 @@ from elastogeo.changes.due_dates import DUE, NEVER_TESTED, NOT_ASKED, NOT_DUE, O
 from elastogeo.changes.events import Event, OpenAlarm
 from elastogeo.changes.fleets import (
     MACHINE_STATES,
+    FleetPart,
     FleetState,
     MachineRow,
     MachineState,
@@ -22,10 +23,10 @@ from elastogeo.changes.fleets import (
     machine_row,
     machine_shown,
     machine_state,
+    states_of,
 )
 from elastogeo.changes.instruments import InstrumentMove, instrument_moves
 from elastogeo.changes.kinds import KINDS, Kind
-from elastogeo.changes.looks import FleetPart, Trend, states_of
 from elastogeo.changes.priors import Prior, default_prior, fleet_prior
 from elastogeo.changes.records import (
     CHANGED,
@@ -107,6 +108,7 @@ from elastogeo.changes.result import (
     ChangeVerdict,
     IndicatorState,
     Step,
+    Trend,
 )
 from elastogeo.changes.rules import Rule
 from elastogeo.changes.run_lengths import cusum_run_length, ewma_run_length, shewhart_run_length

@@ -227,6 +227,27 @@ class ChangeVerdict(Result):
         return tuple(sorted((one for one in self.indicators if one.state == ALARM), key=_excess))
 
 
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Trend(Result):
+    """One indicator of a series over time.
+
+    Attributes
+    ----------
+    verdict : ChangeVerdict
+    indicator : str
+        Its name; empty: the one to look at first.
+    days : float or None [d]
+        How long before the last test it is drawn; None: all of it.
+    first : int
+        Of the tests, the newest first, the first that is listed.
+    """
+
+    verdict: ChangeVerdict
+    indicator: str = ""
+    days: float | None = None
+    first: int = 0
+
+
 def _excess(one: IndicatorState) -> float:
     low, high = one.change_interval
     half = (high - low) / 2

@@ -13,8 +13,8 @@ from elastogeo.changes import ALARM, Drift, DueDate, Event, OpenAlarm
 from elastogeo.cli.screen import show_view
 from elastogeo.report import html_page, view_of
 from elastogeo.report.changes.answers import drift_said
-from elastogeo.report.changes.dates import date_ticks
 from elastogeo.report.changes.events import letter
+from elastogeo.report.changes.trends.dates import date_ticks
 from elastogeo.report.changes.words import change_said, changed, to_place_of
 from elastogeo.report.days import date_said, days_said, iso_date
 from elastogeo.report.drawing.style import house_style

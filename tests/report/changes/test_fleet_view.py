@@ -8,7 +8,7 @@ import pytest
 
 from elastogeo.changes import ALARM, OVERDUE, STEADY
 from elastogeo.report import html_page, view_of
-from elastogeo.report.changes.fleet_rows import row_said
+from elastogeo.report.changes.fleets.rows import row_said
 from tests.report.changes.fleet_cases import (
     FLEETS,
     MACHINES,

@@ -9,7 +9,7 @@ import pytest
 from elastogeo.changes import ALARM
 from elastogeo.report import plot_of, plot_svg, view_of
 from elastogeo.report.changes.answers import worst_of
-from elastogeo.report.changes.trend_plot import spark_plot, trend_plot
+from elastogeo.report.changes.trends.plot import spark_plot, trend_plot
 from elastogeo.report.drawing.plots import Band, Circle, Line, Mark, Text
 from tests.report.changes.cases import CASES, collision, guideway, healthy, many, nothing, suspect
 

@@ -9,7 +9,7 @@ from elastogeo.changes import KINDS, STEADY, STEP, SUSPECT, Baseline, Series, To
 from elastogeo.changes.drifts import drift_of, line_of
 from elastogeo.report import view_of
 from elastogeo.report.changes.answers import drift_said
-from elastogeo.report.changes.fleet_rows import change_of
+from elastogeo.report.changes.fleets.rows import change_of
 from elastogeo.report.changes.rows import resolves_said
 from tests.report.changes.cases import guideway
 

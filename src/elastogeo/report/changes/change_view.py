@@ -19,7 +19,7 @@ from elastogeo.report.changes.answers import (
 from elastogeo.report.changes.document import change_json
 from elastogeo.report.changes.points import test_said
 from elastogeo.report.changes.rows import cause_table, event_table, indicator_table, resolves_said, test_table
-from elastogeo.report.changes.trend_plot import trend_plot
+from elastogeo.report.changes.trends.plot import trend_plot
 from elastogeo.report.changes.words import MARKS, TONES, change_interval_said, change_said, shown_unit, title_of, value_said
 from elastogeo.report.days import date_said, month_said, short_date, simulated_said
 from elastogeo.report.extra import needs_report_extra
@@ -211,6 +211,6 @@ def _how(verdict: ChangeVerdict) -> Iterator[str]:
 
 def _drawn(name: str, *parts: object) -> Figure:
     with needs_report_extra():
-        from elastogeo.report.changes import figures
+        from elastogeo.report.changes.trends import figures
     figure: Figure = getattr(figures, name)(*parts)
     return figure

@@ -9,7 +9,7 @@ from elastogeo.changes import ALARM, OVERDUE, ChangeVerdict, MachineRow, Machine
 from elastogeo.report.changes.answers import sentence_of_change, series_said, worst_of
 from elastogeo.report.changes.change_view import change_view
 from elastogeo.report.changes.document import answer_entries, change_entries
-from elastogeo.report.changes.fleet_rows import row_said
+from elastogeo.report.changes.fleets.rows import row_said
 from elastogeo.report.changes.points import points_of
 from elastogeo.report.changes.words import MARKS, TONES, marked, predicate, title_of
 from elastogeo.report.days import days_said, iso_date, short_date

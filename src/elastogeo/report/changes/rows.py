@@ -11,7 +11,7 @@ from elastogeo.changes import ALARM, SUSPECT, ChangeVerdict, IndicatorState
 from elastogeo.report.changes.answers import component_said
 from elastogeo.report.changes.events import event_said, lettered
 from elastogeo.report.changes.points import ASIDE, BASELINE, QUIET, Point, points_of
-from elastogeo.report.changes.trend_plot import spark_plot
+from elastogeo.report.changes.trends.plot import spark_plot
 from elastogeo.report.changes.words import (
     MARKS,
     TONES,

@@ -16,7 +16,7 @@ from types import MappingProxyType
 from typing import Any
 
 from elastogeo.changes import FleetState, MachineRow
-from elastogeo.report.changes.fleet_rows import move_said, row_said
+from elastogeo.report.changes.fleets.rows import move_said, row_said
 from elastogeo.report.days import iso_date
 from elastogeo.report.document import document
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from elastogeo.changes import ALARM, MACHINE_STATES, NO_BASELINE, OVERDUE, STEADY, SUSPECT, WATCH, FleetState
-from elastogeo.report.changes.fleet_document import fleet_json
-from elastogeo.report.changes.fleet_rows import fleet_table, move_said, move_table, predicate_of
+from elastogeo.report.changes.fleets.document import fleet_json
+from elastogeo.report.changes.fleets.rows import fleet_table, move_said, move_table, predicate_of
 from elastogeo.report.changes.words import MARKS, TONES, title_of
 from elastogeo.report.days import date_said, simulated_said
 from elastogeo.report.text import listed

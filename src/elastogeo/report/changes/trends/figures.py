@@ -15,10 +15,10 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from elastogeo.changes import ALARM, SUSPECT, ChangeVerdict, Event, IndicatorState
-from elastogeo.report.changes.dates import date_ticks
 from elastogeo.report.changes.events import lettered
 from elastogeo.report.changes.points import ASIDE, BASELINE, UNJUDGED, Point, points_of
-from elastogeo.report.changes.ranges import apart, rows_of_letters, time_shown, values_shown, wall_said, walls_of
+from elastogeo.report.changes.trends.dates import date_ticks
+from elastogeo.report.changes.trends.ranges import apart, rows_of_letters, time_shown, values_shown, wall_said, walls_of
 from elastogeo.report.changes.words import change_said, marked, shown_unit, title_of, value_said
 from elastogeo.report.days import short_date
 from elastogeo.report.drawing.style import BLUE, GREY, INK, ORANGE, READABLE, SMALL, multiples

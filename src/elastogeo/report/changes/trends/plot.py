@@ -9,10 +9,10 @@ from math import ceil, floor, isfinite, log10
 import numpy as np
 
 from elastogeo.changes import ALARM, SUSPECT, WATCH, ChangeVerdict, IndicatorState
-from elastogeo.report.changes.dates import date_ticks
 from elastogeo.report.changes.events import lettered
 from elastogeo.report.changes.points import ASIDE, BASELINE, QUIET, UNJUDGED, Point, points_of
-from elastogeo.report.changes.ranges import apart, rows_of_letters, time_shown, values_shown, wall_said, walls_of
+from elastogeo.report.changes.trends.dates import date_ticks
+from elastogeo.report.changes.trends.ranges import apart, rows_of_letters, time_shown, values_shown, wall_said, walls_of
 from elastogeo.report.changes.words import off_said, shown_unit, title_of, to_place_of, value_said
 from elastogeo.report.days import month_said, short_date
 from elastogeo.report.drawing.plots import Band, Circle, Entry, Line, Mark, Place, Plot, Shape, Text

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 from elastogeo.changes import MACHINE_STATES, FleetPart, MachineRow, states_of
-from elastogeo.report.changes.fleet_document import fleet_json
-from elastogeo.report.changes.fleet_rows import fleet_table
-from elastogeo.report.changes.fleet_view import MEANINGS, answered
+from elastogeo.report.changes.fleets.document import fleet_json
+from elastogeo.report.changes.fleets.rows import fleet_table
+from elastogeo.report.changes.fleets.view import MEANINGS, answered
 from elastogeo.report.changes.words import MARKS, TONES, title_of
 from elastogeo.report.view import Table, View, views
 
