@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from elastogeo.changes.alarms import CLOSED, AlarmRow
 from elastogeo.report.changes.answers import component_said
-from elastogeo.report.changes.fleet_rows import change_of
+from elastogeo.report.changes.fleets.rows import change_of
 from elastogeo.report.days import date_said, iso_date
 from elastogeo.report.numbers import significant
 from elastogeo.report.text import listed
