@@ -65,6 +65,10 @@ class Tasks:
         """End a job: one that waits never begins, one that runs ends after its step; one that is over stays."""
         rows.cancel_job(self.store, number)
 
+    def resume_jobs(self) -> int:
+        """Let the jobs wait again that ran when all was ended, by a power cut perhaps; how many."""
+        return rows.requeue_lost(self.store, counts=False)
+
     def try_job_again(self, number: int) -> None:
         """Let a job that failed or was cancelled wait again."""
         rows.try_again(self.store, number)

@@ -42,6 +42,8 @@ def serve(settings: Settings, say: Callable[[str], None] = print) -> None:
         check_reach(settings, history.store)
         if settings.demo and not history.machines():
             history.put_job("demo", {"until": f"{datetime.now(UTC):%Y-%m-%dT00:00:00+00:00}"})
+        if settings.worker:
+            history.resume_jobs()
         app = application(settings, history.store)
         config = uvicorn.Config(
             app, settings.host, settings.port, log_level="warning", server_header=False, proxy_headers=settings.behind_https,

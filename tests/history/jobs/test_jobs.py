@@ -118,6 +118,14 @@ def test_a_job_that_kills_its_worker_is_given_up_with_the_reason(store):
     assert kept(store, key).errors == ("given up after 3 tries that got no further: the program ended while it ran",)
 
 
+def test_a_job_that_was_ended_with_all_else_is_not_given_up(store):
+    key = put_job(store, "count", {"to": 3})
+    for _ in range(2 * rows.TRIES):
+        assert rows.take_job(store, DEAD).key == key
+        assert eg.History.of(store, "A. Nobody").resume_jobs() == 1
+    assert (kept(store, key).state, kept(store, key).tries) == ("waiting", 0)
+
+
 def test_a_job_that_gets_further_each_time_is_not_given_up(store):
     key = put_job(store, "count", {"to": 30})
     for n in range(2 * rows.TRIES):

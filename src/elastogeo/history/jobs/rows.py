@@ -115,15 +115,18 @@ def requeue_job(store: Store, key: int, worker: str, why: str = "") -> bool:
         return row is not None
 
 
-def requeue_lost(store: Store, worker: str) -> int:
-    """Put back the jobs whose worker is gone, and this worker's own, which it does not know of any more; how many."""
+def requeue_lost(store: Store, worker: str = "", *, counts: bool = True) -> int:
+    """Put back the jobs whose worker is gone, and this worker's own, which it does not know of any more; how many.
+
+    It does not count as a try where more than the worker was ended: the job is not what ended it.
+    """
     with read(store) as connection:
         if not _lost(connection, worker):
             return 0
     with write(store) as connection:
         lost = _lost(connection, worker)
         for row in lost:
-            _put_back(connection, row, row.error or "the program ended while it ran")
+            _put_back(connection, row, "the program ended while it ran" if counts else "")
         return len(lost)
 
 
