@@ -174,3 +174,11 @@ def test_the_recipe_for_a_proposal_is_complete(monkeypatch: pytest.MonkeyPatch) 
     assert [one.name for one in pushed] == ["push_1", "push_2", "push_3"]
     rows = whitened([one.test for one in pushed], unknowns(HERMLE), ReadingNoise())
     assert [len(own) for own in rows] == [1, 1, 1]
+
+
+def test_without_a_budget_as_many_tests_as_support_the_volume() -> None:
+    """On this machine the fewest that support it at all are not those that are surest: more are taken until all of it is."""
+    found = eg.plan(Means(eg.read_machine("huron_kx8"), readings=18), count=60)
+    assert found.supported == 1.0
+    assert found.fewest is not None
+    assert len(found.tests) >= found.fewest

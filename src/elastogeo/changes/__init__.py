@@ -64,6 +64,7 @@ from elastogeo.changes.records import (
     IndicatorDifference,
     InstrumentRecord,
     KeptAccounts,
+    KeptAlternative,
     KeptAnalysis,
     KeptCampaign,
     KeptCheck,
@@ -80,7 +81,11 @@ from elastogeo.changes.records import (
     KeptTest,
     KeptToken,
     KeptTokens,
+    NextGoal,
+    NextTests,
     ParameterDifference,
+    PlanToDo,
+    ProgramFacts,
     Recomputed,
     RecomputedTest,
     SeriesRecord,
@@ -93,6 +98,7 @@ from elastogeo.changes.records import (
     Verified,
     WantedOfIndicator,
     WantedOfSeries,
+    Way,
     as_written,
     recomputed_same,
     trail_whole,
@@ -119,6 +125,7 @@ from elastogeo.discovery import first_use
 
 if TYPE_CHECKING:
     from elastogeo.changes.indicators import indicators_of, signatures_of
+    from elastogeo.changes.next_tests import Alternative, alternatives, planned_components
     from elastogeo.changes.trials import FaultFound, RuleTest, try_rule
 from elastogeo.changes.series import MOST
 
@@ -161,6 +168,7 @@ __all__ = [
     "WATCH",
     "WITHIN_SCATTER",
     "Account",
+    "Alternative",
     "AuditFault",
     "AuditRow",
     "AuditTrail",
@@ -189,6 +197,7 @@ __all__ = [
     "InstrumentRecord",
     "Judged",
     "KeptAccounts",
+    "KeptAlternative",
     "KeptAnalysis",
     "KeptCampaign",
     "KeptCheck",
@@ -208,9 +217,13 @@ __all__ = [
     "Kind",
     "MachineRow",
     "MachineState",
+    "NextGoal",
+    "NextTests",
     "OpenAlarm",
     "ParameterDifference",
+    "PlanToDo",
     "Prior",
+    "ProgramFacts",
     "Recomputed",
     "RecomputedTest",
     "Reference",
@@ -232,6 +245,8 @@ __all__ = [
     "Verified",
     "WantedOfIndicator",
     "WantedOfSeries",
+    "Way",
+    "alternatives",
     "as_suspected",
     "as_written",
     "cusum_run_length",
@@ -249,6 +264,7 @@ __all__ = [
     "machine_row",
     "machine_shown",
     "machine_state",
+    "planned_components",
     "recomputed_same",
     "reference_from",
     "reference_of",
@@ -262,4 +278,11 @@ __all__ = [
     "within_scatter",
 ]
 
-__getattr__ = first_use(__name__, {"indicators": "indicators_of signatures_of", "trials": "FaultFound RuleTest try_rule"})
+__getattr__ = first_use(
+    __name__,
+    {
+        "indicators": "indicators_of signatures_of",
+        "next_tests": "Alternative alternatives planned_components",
+        "trials": "FaultFound RuleTest try_rule",
+    },
+)

@@ -28,6 +28,7 @@ from elastogeo.errors import ElastogeoError, StoreError
 from elastogeo.formats import campaign_parts
 from elastogeo.history import alarms
 from elastogeo.history.access import Access
+from elastogeo.history.ahead import Ahead
 from elastogeo.history.alarms.assessing import assess
 from elastogeo.history.alarms.judging import judged
 from elastogeo.history.alarms.states import fleet
@@ -94,7 +95,7 @@ class Added:
         return self.imported is not None and self.imported.new
 
 
-class History(Access, Care, Looking, Records, Tasks):
+class History(Access, Ahead, Care, Looking, Records, Tasks):
     """Machines and their tests over the years.
 
     Parameters

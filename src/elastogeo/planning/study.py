@@ -141,21 +141,39 @@ def chosen_of(
     if tests is None and minutes is None and names:
         tests = needed_for(study, names)
     if tests is None and minutes is None:
-        tests = study.needed[0]
-        if tests is None:
-            raise UnsupportedError(
-                f"all {len(study.offered)} candidates together do not support the compliance everywhere in the volume for "
-                f"the tools asked for; say how many tests, draw more candidates, or let rotary axes move"
-            )
-    budget = Budget(tests, inf if minutes is None else minutes)
-    taken = chosen(study.space, goals_of(study, goal, names), study.minutes, budget, progress=progress)
-    if goal == "workspace":
-        progress("looking for the worst places")
-        taken = _against_the_worst(study, taken, budget)
+        return _supporting(study, goal, names, progress)
+    taken = _chosen(study, goal, names, Budget(tests, inf if minutes is None else minutes), progress)
     if not taken:
         raise UnsupportedError(
             f"no test fits into {minutes:g} minutes; the shortest takes {study.minutes.min():.0f}: plan more time"
         )
+    return taken
+
+
+def _supporting(study: Study, goal: str, names: Sequence[str], progress: Progress) -> list[int]:
+    """As few candidates as support the workspace when they are chosen for the goal.
+
+    The fewest that support it at all are another choice: those that are surer, the prior counted, may leave some of it out.
+    """
+    fewest = study.needed[0]
+    if fewest is None:
+        raise UnsupportedError(
+            f"all {len(study.offered)} candidates together do not support the compliance everywhere in the volume for "
+            f"the tools asked for; say how many tests, draw more candidates, or let rotary axes move"
+        )
+    for tests in range(fewest, min(MOST_TESTS, len(study.offered)) + 1):
+        taken = _chosen(study, goal, names, Budget(tests, inf), progress)
+        if study.supported(taken).all():
+            break
+    return taken
+
+
+def _chosen(study: Study, goal: str, names: Sequence[str], budget: Budget, progress: Progress) -> list[int]:
+    """The candidates to take within a budget."""
+    taken = chosen(study.space, goals_of(study, goal, names), study.minutes, budget, progress=progress)
+    if goal == "workspace":
+        progress("looking for the worst places")
+        taken = _against_the_worst(study, taken, budget)
     return taken
 
 

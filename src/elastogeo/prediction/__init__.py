@@ -11,14 +11,21 @@ if TYPE_CHECKING:
     from elastogeo.prediction.compensation import compensate, compensate_path
     from elastogeo.prediction.knowledge import Knowledge, Predicted, Span, knowledge_of
     from elastogeo.prediction.maps import (
+        COVARIANCES,
         Acceptance,
         AgainstDesign,
         ComplianceMap,
         DesignParameter,
+        ElementMap,
+        Elements,
         Grid,
+        MapSection,
         Place,
+        Spot,
         accepted,
         map_compliance,
+        map_elements,
+        section_of,
     )
     from elastogeo.prediction.maps.verdict import (
         DESIGN,
@@ -54,6 +61,7 @@ if TYPE_CHECKING:
     from elastogeo.prediction.virtual import functionals, virtual_observations
 
 __all__ = [
+    "COVARIANCES",
     "DESIGN",
     "DEVIATION_COMPONENTS",
     "FOUNDATION",
@@ -70,8 +78,11 @@ __all__ = [
     "AgainstDesign",
     "ComplianceMap",
     "DesignParameter",
+    "ElementMap",
+    "Elements",
     "Grid",
     "Knowledge",
+    "MapSection",
     "PartOfDeviation",
     "PathPrediction",
     "Piece",
@@ -79,6 +90,7 @@ __all__ = [
     "Place",
     "Predicted",
     "Span",
+    "Spot",
     "ToolCompliance",
     "accepted",
     "collinear_stiffness_of",
@@ -91,9 +103,11 @@ __all__ = [
     "knowledge_of",
     "known_deviation",
     "map_compliance",
+    "map_elements",
     "parameter_scales",
     "path_deviation",
     "predict",
+    "section_of",
     "simulated_points",
     "tool_compliance",
     "unsupported_share",
@@ -105,7 +119,8 @@ __getattr__ = first_use(
     {
         "compensation": "compensate compensate_path",
         "knowledge": "Knowledge Predicted Span knowledge_of",
-        "maps": "Acceptance AgainstDesign ComplianceMap DesignParameter Grid Place accepted map_compliance",
+        "maps": "Acceptance AgainstDesign COVARIANCES ComplianceMap DesignParameter ElementMap Elements Grid MapSection "
+        "Place Spot accepted map_compliance map_elements section_of",
         "maps.verdict": "DESIGN FOUNDATION LIMIT NOTHING_LEFT_OUT SUPPORTED_EVERYWHERE UNCERTAINTY_KNOWN",
         "paths": "DEVIATION_COMPONENTS PARTS PartOfDeviation PathPrediction Piece PieceDeviation "
         "TOOL deviations known_deviation path_deviation predict simulated_points",

@@ -174,6 +174,17 @@ class Span:
             prior_share=np.divide(unseen, total, out=np.zeros(len(total)), where=known & (total > 0)),
         )
 
+    def moved(self, coefficients: Array) -> Array | None:
+        """What each run, then each influence, moves combinations by, shape (..., q): their squares add up to the variance.
+
+        None where the runs show no uncertainty. Products of two combinations add up to their covariance.
+        """
+        if self.scatter is None:
+            return None
+        flat = coefficients.reshape(-1, coefficients.shape[-1])
+        both = np.hstack([flat @ self.scatter.moved(self.over), flat @ self.systematic])
+        return np.asarray(both.reshape(*coefficients.shape[:-1], -1))
+
     def _variance(self, held: Array) -> tuple[Array, Array]:
         """Variance of combinations and its degrees of freedom; NaN where the runs show none."""
         if self.scatter is None:

@@ -186,7 +186,7 @@ def _identified(files: Files, text: str, raw: Mapping[str, Sequence[RawFile]]) -
     """What the tests say together, as it is kept."""
     settings = {"verb": "identify", "seed": SEED}
     document, supported, error = None, False, ""
-    with _beside(files, text, raw) as top:
+    with beside(files, text, raw) as top:
         try:
             view = view_of(identify(read_campaign(top)))
             document, supported = dict(view.document), view.supported
@@ -206,7 +206,7 @@ def _identified(files: Files, text: str, raw: Mapping[str, Sequence[RawFile]]) -
 
 
 @contextmanager
-def _beside(files: Files, text: str, raw: Mapping[str, Sequence[RawFile]]) -> Iterator[Path]:
+def beside(files: Files, text: str, raw: Mapping[str, Sequence[RawFile]]) -> Iterator[Path]:
     """The tests in folders of their names beside the campaign file."""
     up = max((most_up(found) for found in raw.values()), default=0)
     with TemporaryDirectory(prefix="elastogeo-", ignore_cleanup_errors=True) as made:

@@ -87,7 +87,7 @@ def map_compliance(
     result = one if isinstance(one, Identification) else identify(one, **asked)
     known, campaign = knowledge_of(result), result.campaign
     places = grid(campaign.machine, campaign, along, at)
-    way, point = _direction(direction), _tool(campaign, tool)
+    way, point = _direction(direction), functional_point(campaign, tool)
     found = field_over(known, places, point, way, prior)
     compliance, expanded = found.predicted.value, found.predicted.expanded
     told = np.where(found.predicted.supported, compliance, np.nan)  # a prior accepts no machine
@@ -144,7 +144,7 @@ def _direction(asked: str | Sequence[float]) -> Array | None:
     return unit_direction(asked)
 
 
-def _tool(campaign: Campaign, asked: Sequence[float] | None) -> Array:
+def functional_point(campaign: Campaign, asked: Sequence[float] | None) -> Array:
     """The functional point: what is asked for, else that of the tests if they have one, else the machine's."""
     if asked is not None:
         point = np.asarray(asked, dtype=float)

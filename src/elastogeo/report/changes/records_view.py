@@ -45,7 +45,7 @@ def recomputed_line(one: RecomputedTest) -> str:
 @lines(KeptPlan)
 def plan_line(plan: KeptPlan) -> str:
     """`spring, Mill 3: due 12 May 2026`."""
-    return f"{plan.name}, {plan.machine}: {_standing(plan)}"
+    return f"{plan.name}, {plan.machine}: {plan_standing(plan)}"
 
 
 @views(Recomputed)
@@ -120,7 +120,7 @@ def plans_view(result: KeptPlans) -> View:
         for plan in result.plans
     ]
     rows = tuple(
-        (str(plan.key), plan.machine, plan.name, listed(plan.tests), _minutes(plan), _standing(plan))
+        (str(plan.key), plan.machine, plan.name, listed(plan.tests), _minutes(plan), plan_standing(plan))
         for plan in result.plans
     )
     return View(
@@ -236,7 +236,8 @@ def _worst_first(tests: tuple[RecomputedTest, ...]) -> list[RecomputedTest]:
     return sorted(tests, key=lambda one: (not (one.is_compared and one.differing), not one.error, one.same_bits))
 
 
-def _standing(plan: KeptPlan) -> str:
+def plan_standing(plan: KeptPlan) -> str:
+    """Until when it is to be done, or when it was: `due 12 May 2026, the grace runs`."""
     if plan.done_at is not None:
         return f"done {short_date(plan.done_at)}"
     return _due_said(plan.due)
