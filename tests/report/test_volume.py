@@ -16,7 +16,7 @@ from plotly.offline import get_plotlyjs
 from elastogeo.identification import Identification, identify
 from elastogeo.prediction import ComplianceMap, map_compliance
 from elastogeo.report import save_report, view_of
-from elastogeo.report.page.scene import CONFIG, scene_page
+from elastogeo.report.page.scene import PLOTLY_CONFIG, scene_page
 from elastogeo.report.view import View
 from tests.prediction.circles import circles
 
@@ -106,7 +106,7 @@ def test_the_button_that_sends_the_data_is_gone(page: str) -> None:
     named = set(re.findall(r"\bsend\w*ToCloud\b", " ".join(re.findall(r'name:"(\w+)"', get_plotlyjs()))))
     assert named
     config = json.loads(Page(page).scripts[1])["config"]
-    assert config == CONFIG
+    assert config == PLOTLY_CONFIG
     assert named <= set(config["modeBarButtonsToRemove"])
     assert config["plotlyServerURL"] == ""
     assert config["showSendToCloud"] is False

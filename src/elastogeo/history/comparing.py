@@ -8,7 +8,7 @@ from math import inf, nan
 from typing import Any
 
 import numpy as np
-from sqlalchemy import Connection, Row, func, select
+from sqlalchemy import Connection, Row, Select, func, select
 
 from elastogeo.changes import (
     FEW_RUNS,
@@ -16,6 +16,7 @@ from elastogeo.changes import (
     NOTHING_IN_COMMON,
     OTHER_MACHINE,
     CircleTrace,
+    Comparable,
     ComparedTest,
     ComparedTests,
     IndicatorDifference,
@@ -63,7 +64,7 @@ def compare_tests(store: Store, one: int, other: int) -> ComparedTests:
     if one == other:
         raise InputError("this is one test; choose another to compare it with")
     with read(store) as connection:
-        before, after = sorted((_row(connection, key) for key in (one, other)), key=lambda row: (row.at, row.id))
+        before, after = sorted((counted_test(connection, key) for key in (one, other)), key=lambda row: (row.at, row.id))
         rows = before, after
         refusal = _refusal(before, after)
         tests = _compared(before), _compared(after)
@@ -71,7 +72,7 @@ def compare_tests(store: Store, one: int, other: int) -> ComparedTests:
         if refusal:
             return ComparedTests(*tests, refusal, (), 0, (), None, "", settings, (), None, (), ())
         indicators, baseline = _indicators(connection, before, after)
-        documents = tuple(_document(connection, row.analysis) for row in rows)
+        documents = tuple(kept_document(connection, row.analysis) for row in rows)
         raw = tuple(raw_files(connection, row.id) for row in rows)
     parameters, joint, unjudged, verdict = _parameters((documents[0], documents[1]))
     if not indicators and unjudged == NOTHING_IN_COMMON:
@@ -84,15 +85,44 @@ def compare_tests(store: Store, one: int, other: int) -> ComparedTests:
     )  # fmt: skip
 
 
-def _row(connection: Connection, key: int) -> Row[Any]:
-    """A test with its series, and the analysis that its chart counts with."""
+def comparable(store: Store, one: int) -> Comparable:
+    """The tests of the machine of a test, the newest first.
+
+    Raises
+    ------
+    InputError
+        If there is no such test.
+    """
+    with read(store) as connection:
+        owner = counted_test(connection, one)
+        asked = _asked().where(series.c.machine == owner.machine_key).order_by(test.c.at.desc(), test.c.id.desc())
+        rows = connection.execute(asked).all()
+    return Comparable(owner.machine_name, tuple(_compared(row) for row in rows))
+
+
+def counted_test(connection: Connection, key: int) -> Row[Any]:
+    """A test with its series, and the analysis that its chart counts with.
+
+    Raises
+    ------
+    InputError
+        If there is no such test.
+    """
+    found = connection.execute(_asked().where(test.c.id == key)).one_or_none()
+    if found is None:
+        raise InputError(f"there is no test {key}; elastogeo history show lists those of a machine")
+    return found
+
+
+def _asked() -> Select[Any]:
+    """Tests with their series, and the analyses that their charts count with."""
     last = (
         select(func.max(analysis.c.id))
         .where(analysis.c.test == test.c.id, analysis.c.software == series.c.software)
         .correlate(test, series)
         .scalar_subquery()
     )
-    asked = (
+    return (
         select(
             test,
             series.c.name.label("recipe_name"),
@@ -105,12 +135,7 @@ def _row(connection: Connection, key: int) -> Row[Any]:
         )
         .join(series, series.c.id == test.c.series)
         .join(machine, machine.c.id == series.c.machine)
-        .where(test.c.id == key)
     )
-    found = connection.execute(asked).one_or_none()
-    if found is None:
-        raise InputError(f"there is no test {key}; elastogeo history show lists those of a machine")
-    return found
 
 
 def _refusal(before: Row[Any], after: Row[Any]) -> str:
@@ -149,7 +174,8 @@ def _indicators(connection: Connection, before: Row[Any], after: Row[Any]) -> tu
     return indicator_differences(made, str(before.id), str(after.id), reference), count
 
 
-def _document(connection: Connection, key: int) -> Mapping[str, Any]:
+def kept_document(connection: Connection, key: int) -> Mapping[str, Any]:
+    """The document of an analysis."""
     found: Mapping[str, Any] = connection.execute(select(analysis.c.document).where(analysis.c.id == key)).scalar_one()
     return found
 
@@ -158,7 +184,7 @@ def _parameters(
     documents: Documents,
 ) -> tuple[tuple[ParameterDifference, ...], Change | None, str, tuple[Check, ...]]:
     """What both tests determine; why there is nothing, if there is nothing."""
-    before, after = (_identification(document) for document in documents)
+    before, after = (identification_in(document) for document in documents)
     if before is None or after is None:
         return (), None, NOTHING_IN_COMMON, ()
     sides = determined_by(before), determined_by(after)
@@ -173,7 +199,7 @@ def _parameters(
     return told, joint, "", (unchanged(found, joint),)
 
 
-def _identification(document: Mapping[str, Any]) -> Mapping[str, Any] | None:
+def identification_in(document: Mapping[str, Any]) -> Mapping[str, Any] | None:
     """The parameters of a kept result: its own, or those of its joints."""
     found = document if "parameters" in document else document.get("joints")
     return found if isinstance(found, Mapping) and found.get("parameters") else None
@@ -247,7 +273,7 @@ def _circles(
     files: Files, raw: tuple[tuple[RawFile, ...], ...]
 ) -> tuple[tuple[CircleTrace, ...], float | None, tuple[str, ...]]:
     """What both tests read around their circles, the radius of these, and the axes of their plane."""
-    tests = [_read(files, one) for one in raw]
+    tests = [read_of(files, one) for one in raw]
     if any(one is None or one.setup.pose_quantity != "angle" for one in tests):
         return (), None, ()
     circles = [one for one in tests if one is not None]
@@ -256,7 +282,8 @@ def _circles(
     return traces, circles[0].setup.nominal_radius, tuple(plane) if isinstance(plane, str) and len(plane) == 2 else ()
 
 
-def _read(files: Files, raw: tuple[RawFile, ...]) -> MachineTest | None:
+def read_of(files: Files, raw: tuple[RawFile, ...]) -> MachineTest | None:
+    """A test from its raw files; None of what is none with observations, as drives are."""
     if TEST not in {file.path for file in raw}:
         return None
     with laid_out(files, raw) as folder:

@@ -15,6 +15,7 @@ from elastogeo.changes import (
     SUSPECT,
     AuditTrail,
     ChangeVerdict,
+    EventList,
     FleetState,
     Kind,
     MachineState,
@@ -41,7 +42,7 @@ from elastogeo.history.care import Care
 from elastogeo.history.intake.asides import KnownTest, set_test_aside
 from elastogeo.history.intake.days import ends_of_day
 from elastogeo.history.intake.folders import in_order, paths_of_tests, written
-from elastogeo.history.intake.happenings import Happened, record_event
+from elastogeo.history.intake.happenings import Happened, listed_events, record_event
 from elastogeo.history.intake.imports import Imported, import_test
 from elastogeo.history.intake.instruments import KnownInstrument, add_instrument
 from elastogeo.history.intake.machines import KnownMachine, add_machine, machine_named, machines
@@ -165,6 +166,10 @@ class History(Access, Ahead, Care, Looking, Records, Tasks):
     ) -> Happened:
         """Keep what happened to a machine or an instrument: a repair, parameter edit, move, crash, calibration or note."""
         return record_event(self.store, kind, note, who=self.who, machine=machine, instrument=instrument, at=at)
+
+    def events(self, machine: str = "", kind: str = "", year: int | None = None) -> EventList:
+        """What happened, the newest first: to a machine and the instruments that tested it, or to all."""
+        return listed_events(self.store, machine, kind, year)
 
     def set_aside(self, test: int, why: str, *, back: bool = False) -> KnownTest:
         """Set a test aside, so that it counts no more, or take it back."""

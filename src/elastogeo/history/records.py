@@ -7,7 +7,16 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from elastogeo.changes import ComparedTests, KeptCampaign, KeptPlans, KeptTest, Recomputed
+from elastogeo.changes import (
+    Comparable,
+    ComparedTests,
+    Explored,
+    KeptCampaign,
+    KeptCampaigns,
+    KeptPlans,
+    KeptTest,
+    Recomputed,
+)
 from elastogeo.history.alarms.assessing import assess
 from elastogeo.history.analyses import (
     campaigns,
@@ -24,7 +33,8 @@ from elastogeo.history.analyses import (
     recompute,
     recompute_campaign,
 )
-from elastogeo.history.comparing import compare_tests
+from elastogeo.history.comparing import comparable, compare_tests
+from elastogeo.history.exploring import explore
 from elastogeo.history.intake.machines import machine_named
 from elastogeo.history.series_of import days
 from elastogeo.history.store import Store, now, read
@@ -86,11 +96,20 @@ class Records:
         """Two tests held against each other, the earlier one first: what changed, and whether it is more than scatter."""
         return compare_tests(self.store, one, other)
 
-    def campaigns(self, machine: str | None = None) -> tuple[KeptCampaign, ...]:
+    def comparable(self, test: int) -> Comparable:
+        """The tests of the machine of a test, the newest first: with which it may be compared."""
+        return comparable(self.store, test)
+
+    def explore(self, test: int) -> Explored:
+        """The readings of a test, run by run, beside what its kept parameters predict."""
+        return explore(self.store, test)
+
+    def campaigns(self, machine: str | None = None) -> KeptCampaigns:
         """The campaigns of a machine, or of all, in the order in which they were kept."""
         with read(self.store) as connection:
-            of = None if machine is None else machine_named(connection, machine).key
-            return tuple(kept_campaign(connection, key) for key in campaigns(connection, of))
+            of = None if machine is None else machine_named(connection, machine)
+            kept = tuple(kept_campaign(connection, key) for key in campaigns(connection, None if of is None else of.key))
+        return KeptCampaigns(self.store.url, "" if of is None else of.name, kept)
 
     def campaign(self, number: int) -> KeptCampaign:
         """A campaign, with what its tests say together."""

@@ -14,7 +14,17 @@ from elastogeo.report.drawing.plots import Plot, plot_of
 from elastogeo.report.drawing.svg import svg_of
 from elastogeo.report.extra import MissingExtraError
 from elastogeo.report.numbers import DisplayUnit, display_unit, significant, value_with_uncertainty
-from elastogeo.report.page import KeptView, csv_of, html_page, kept_view, pdf_page, save_report, view_kept
+from elastogeo.report.page import (
+    PLOTLY_CONFIG,
+    KeptView,
+    csv_of,
+    html_page,
+    kept_view,
+    pdf_page,
+    plotly_library,
+    save_report,
+    view_kept,
+)
 from elastogeo.report.sentences import says, sentence_of
 from elastogeo.report.view import KeyValue, Picture, Said, Section, Table, View, view_of, views
 
@@ -22,6 +32,7 @@ if TYPE_CHECKING:
     from elastogeo.report.faults.cause_document import causes_document
 
 __all__ = [
+    "PLOTLY_CONFIG",
     "DisplayUnit",
     "KeptView",
     "KeyValue",
@@ -40,6 +51,7 @@ __all__ = [
     "pdf_page",
     "plot_of",
     "plot_svg",
+    "plotly_library",
     "save_report",
     "says",
     "sentence_of",

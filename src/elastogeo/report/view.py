@@ -319,7 +319,7 @@ def attention_sentence(checks: Iterable[Check | Said]) -> str:
         f"all {len(marks)} checks passed" if marks.count(True) == len(marks) else f"{marks.count(True)} checks passed",
     ]
     text = ", ".join(part for part in parts if part)
-    return f"{text[:1].upper()}{text[1:]}."
+    return f"{text[:1].upper()}{text[1:]}." if marks else ""
 
 
 def _found(register: Mapping[type, Callable[[Any], T]], kind: type) -> Callable[[Any], T]:

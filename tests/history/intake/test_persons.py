@@ -5,9 +5,10 @@ from datetime import UTC, datetime
 import pytest
 from sqlalchemy import func, select
 
+from elastogeo.changes import EVENT_KINDS
 from elastogeo.errors import InputError
 from elastogeo.history.intake.asides import set_test_aside
-from elastogeo.history.intake.happenings import KINDS, record_event
+from elastogeo.history.intake.happenings import record_event
 from elastogeo.history.intake.imports import import_test
 from elastogeo.history.intake.instruments import add_instrument, overdue
 from elastogeo.history.intake.machines import add_machine, machines
@@ -88,7 +89,7 @@ def test_a_test_that_is_set_aside_says_so_when_it_comes_again(store, tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["truncate"])
-@pytest.mark.parametrize("kind_of_event", KINDS)
+@pytest.mark.parametrize("kind_of_event", EVENT_KINDS)
 def test_an_event_stands_on_a_machine(kind_of_event, store):
     got = record_event(store, kind_of_event, "carriage 2 replaced", who=WHO, machine="Mill 3", at="2026-02-03")
     with read(store) as connection:

@@ -109,7 +109,7 @@ def test_plans_without_any_late_say_so(plans: tuple[KeptPlan, ...], sentence: st
 
 
 def campaign(**given: object) -> KeptCampaign:
-    parameter = {"name": "C_XXX", "value": 61.92, "unit": "nm/N", "interval95": [61.8, 62.0]}
+    parameter = {"name": "C_XXX", "value": 61.92, "unit": "nm/N", "interval95": [61.8, 62.0], "separated": True}
     whole = {"parameters": [parameter, {**parameter, "name": "C_YYY", "interval95": None}], "test": {"simulated": "a truth"}}
     known = {"key": 1, "machine": "Mill 3", "name": "spring", "made_at": NOW, "software": "1.0", "tests": {"xy": 4, "yz": 5}}
     return KeptCampaign(**{**known, "supported": True, "error": "", "document": whole, **given})
@@ -135,7 +135,10 @@ def test_a_campaign_says_what_its_tests_support(given: dict[str, object], ending
 def test_a_simulated_campaign_says_so_beside_its_numbers() -> None:
     view = view_of(campaign())
     assert view.origin == "Simulated: a truth"
-    assert view.tables[0].rows == (("C_XXX", "61.92", "nm/N", "61.80 to 62.00"), ("C_YYY", "61.92", "nm/N", "not known"))
+    alone = "a test alone"
+    assert view.tables[0].rows == (("C_XXX", "61.92 ± 0.10", "nm/N", alone), ("C_YYY", "61.9", "nm/N", alone))
+    assert view.tables[0].note == "Without ±: the runs are too few for an uncertainty."
+    assert view.tables[1].keys == (4, 5)
 
 
 def test_parts_have_a_line_of_their_own() -> None:

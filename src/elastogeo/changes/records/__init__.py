@@ -2,7 +2,7 @@
 
 from elastogeo.changes.records.accounts import Account, KeptAccounts, KeptToken, KeptTokens
 from elastogeo.changes.records.audit_trail import TRAIL_WHOLE, AuditFault, AuditRow, AuditTrail, trail_whole
-from elastogeo.changes.records.campaigns import KeptCampaign
+from elastogeo.changes.records.campaigns import KeptCampaign, KeptCampaigns
 from elastogeo.changes.records.compared import (
     FEW_RUNS,
     NOT_ANALYSED,
@@ -10,6 +10,7 @@ from elastogeo.changes.records.compared import (
     OTHER_MACHINE,
     WITHIN_SCATTER,
     CircleTrace,
+    Comparable,
     ComparedTest,
     ComparedTests,
     IndicatorDifference,
@@ -17,7 +18,9 @@ from elastogeo.changes.records.compared import (
     SettingDifference,
 )
 from elastogeo.changes.records.copies import KeptCheck, KeptCopies, KeptCopy
+from elastogeo.changes.records.explored import NO_READINGS, NOT_EXPLAINED, Explored, ExploredRun
 from elastogeo.changes.records.found import FOUND_KINDS, Found, FoundEntry
+from elastogeo.changes.records.happened import EVENT_KINDS, EventList, KeptEvent
 from elastogeo.changes.records.instruments import (
     Calibration,
     InstrumentRecord,
@@ -83,6 +86,7 @@ __all__ = [
     "DOCUMENTS_WHOLE",
     "DONE",
     "ENOUGH",
+    "EVENT_KINDS",
     "FAILED",
     "FEW_RUNS",
     "FOUND_KINDS",
@@ -91,6 +95,8 @@ __all__ = [
     "MORE",
     "NOTHING_IN_COMMON",
     "NOT_ANALYSED",
+    "NOT_EXPLAINED",
+    "NO_READINGS",
     "NO_STRAY_FILES",
     "ONE",
     "OTHER_MACHINE",
@@ -119,9 +125,13 @@ __all__ = [
     "AuditTrail",
     "Calibration",
     "CircleTrace",
+    "Comparable",
     "ComparedTest",
     "ComparedTests",
     "Differing",
+    "EventList",
+    "Explored",
+    "ExploredRun",
     "Found",
     "FoundEntry",
     "IndicatorDifference",
@@ -130,9 +140,11 @@ __all__ = [
     "KeptAlternative",
     "KeptAnalysis",
     "KeptCampaign",
+    "KeptCampaigns",
     "KeptCheck",
     "KeptCopies",
     "KeptCopy",
+    "KeptEvent",
     "KeptFile",
     "KeptInstrument",
     "KeptInstruments",

@@ -46,3 +46,20 @@ class KeptCampaign(Result):
     document: dict[str, Any] | None
     same_bits: bool | None = None
     differing: tuple[Differing, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class KeptCampaigns(Result):
+    """The campaigns that a history keeps, of one machine or of all, in the order in which they were kept.
+
+    Attributes
+    ----------
+    store : str
+    machine : str
+        Empty: of all.
+    campaigns : tuple of KeptCampaign
+    """
+
+    store: str
+    machine: str
+    campaigns: tuple[KeptCampaign, ...]

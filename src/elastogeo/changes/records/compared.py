@@ -207,3 +207,18 @@ class ComparedTests(Result):
     def one_recipe(self) -> bool:
         """Whether both are of one series."""
         return self.before.series == self.after.series
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Comparable(Result):
+    """The tests of a machine of which two may be compared.
+
+    Attributes
+    ----------
+    machine : str
+    tests : tuple of ComparedTest
+        The newest first.
+    """
+
+    machine: str
+    tests: tuple[ComparedTest, ...]

@@ -12,7 +12,6 @@ from elastogeo.changes import (
     OVERDUE,
     Differing,
     DueDate,
-    KeptCampaign,
     KeptPlan,
     KeptPlans,
     Recomputed,
@@ -139,56 +138,6 @@ def plans_view(result: KeptPlans) -> View:
         if rows
         else (),
     )
-
-
-@views(KeptCampaign)
-def campaign_view(kept: KeptCampaign) -> View:
-    """What tests that are kept as a set say together."""
-    whole = kept.document or {}
-    rows = [
-        (one["name"], significant(one["value"], _DIGITS), one["unit"], _interval(one["interval95"]))
-        for one in whole.get("parameters", [])
-    ]
-    return View(
-        kind="Campaign",
-        title=kept.name,
-        subtitle=kept.machine,
-        origin=f"Simulated: {simulated}" if (simulated := whole.get("test", {}).get("simulated", "")) else "",
-        head=(
-            ("Tests", listed(tuple(f"{name} ({key})" for name, key in kept.tests.items()))),
-            ("Computed by", kept.software),
-        ),
-        sentence=(kept.error or _campaign_answer(kept)) + _again(kept),
-        values=(),
-        picture=None,
-        checks=(),
-        document=document(
-            "elastogeo.campaign-kept/1",
-            {**asdict(kept), "made_at": iso_date(kept.made_at), "document": kept.document},
-        ),
-        rows=whole.get("parameters", []),
-        tables=(Table(("parameter", "value", "unit", "95 %"), tuple(rows), words=(0, 2, 3)),) if rows else (),
-        notes=tuple(f"Differs: {differing_line(entry)}" for entry in kept.differing[:_SHOWN]),
-    )
-
-
-def _again(kept: KeptCampaign) -> str:
-    """What computing it again found; nothing if it was not computed again, or by another version."""
-    if kept.same_bits is None:
-        return ""
-    if kept.same_bits:
-        return " Computed again, it is the same to the last bit."
-    return " Computed again, it differs." if kept.differing else " Computed again, it differs in last digits only."
-
-
-def _campaign_answer(kept: KeptCampaign) -> str:
-    count = len(kept.tests)
-    tests = "one test" if count == 1 else f"{count} tests"
-    return f"{tests[:1].upper()}{tests[1:]} together {'support' if kept.supported else 'do not support'} what was asked."
-
-
-def _interval(found: list[float] | None) -> str:
-    return "not known" if found is None else f"{significant(found[0], _DIGITS)} to {significant(found[1], _DIGITS)}"
 
 
 def _answer(result: Recomputed) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 
@@ -22,6 +23,8 @@ _MANY = 100
 """A trace is thinned as one of so many: a page is small."""
 _ARROW_AT, _ARROW = np.radians(135.0), np.radians(11.0)
 _VALUES_AT = np.radians(67.5)
+_LETTERS = 15.0
+"""Height [px] that a written value takes: where rings are closer, only some are written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,11 +66,12 @@ def ring_shapes(frame: Frame, axes: Sequence[str] = ()) -> Iterator[Shape]:
         x, y = ((1, 0), (0, -1), (-1, 0), (0, 1))[k]
         yield Line(((middle, middle), (middle + x * reach, middle + y * reach)), "line")
         anchor = ("start", "middle", "end", "middle")[k]
-        yield Text(middle + x * (reach + 4), middle + y * (reach + 11) + 4, name, anchor, "soft", size=12)
-    for k in range(scale.inner, scale.outer + 1):
+        yield Text(middle + x * (reach + 4), middle + y * (reach + 11) + 4, name, anchor, "soft")
+    apart = ceil(_LETTERS / (scale.division * scale.magnification * frame.per_unit))
+    for k in (k for k in range(scale.inner, scale.outer + 1) if k % apart == 0):
         r = frame.ring(k * scale.division)
         text = f"{k * scale.division * UM:+g}".replace("-", "−") if k else "0 µm"
-        yield Text(middle + r * np.cos(_VALUES_AT), middle - r * np.sin(_VALUES_AT) + 4, text, "middle", "soft", size=11)
+        yield Text(middle + r * np.cos(_VALUES_AT), middle - r * np.sin(_VALUES_AT) + 4, text, "middle", "soft")
 
 
 def trace_line(
@@ -84,7 +88,7 @@ def direction_arrow(frame: Frame, sense: int) -> Iterator[Shape]:
     outside = frame.scale.limit * (1.02 if sense > 0 else 1.055)
     angles = _ARROW_AT + sense * np.linspace(-_ARROW, _ARROW, 9)
     points = [frame.place(outside * float(np.cos(a)), outside * float(np.sin(a))) for a in angles]
-    yield Line(tuple(points), DIRECTIONS[sense], 2.0)
+    yield Line(tuple(points), DIRECTIONS[sense], 1.8)
     tip, along = np.array(points[-1]), np.subtract(points[-1], points[-2])
     along = along / (np.hypot(*along) or 1.0)
     across = np.array([-along[1], along[0]])

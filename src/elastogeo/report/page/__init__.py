@@ -5,5 +5,16 @@ from elastogeo.report.page.files import save_report
 from elastogeo.report.page.html import html_page
 from elastogeo.report.page.kept import KeptView, kept_view, view_kept
 from elastogeo.report.page.pdf import pdf_page
+from elastogeo.report.page.scene import PLOTLY_CONFIG, plotly_library
 
-__all__ = ["KeptView", "csv_of", "html_page", "kept_view", "pdf_page", "save_report", "view_kept"]
+__all__ = [
+    "PLOTLY_CONFIG",
+    "KeptView",
+    "csv_of",
+    "html_page",
+    "kept_view",
+    "pdf_page",
+    "plotly_library",
+    "save_report",
+    "view_kept",
+]

@@ -8,11 +8,11 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from elastogeo.report.extra import needs_report_extra
+from elastogeo.report.extra import MissingExtraError, needs_report_extra
 from elastogeo.report.view import View
 from elastogeo.version import VERSION
 
-CONFIG: dict[str, Any] = {
+PLOTLY_CONFIG: dict[str, Any] = {
     "displaylogo": False,
     "responsive": True,
     "showSendToCloud": False,
@@ -20,6 +20,23 @@ CONFIG: dict[str, Any] = {
     "modeBarButtonsToRemove": ["sendChartToCloud", "sendDataToCloud"],
 }
 """Without the button that sends the data to plotly's cloud, without its address, and without the link to its makers."""
+
+
+def plotly_library() -> bytes:
+    """plotly.js, as the installed package holds it.
+
+    Raises
+    ------
+    MissingExtraError
+        If plotly is not installed.
+    """
+    try:
+        from plotly.offline import get_plotlyjs
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] != "plotly":
+            raise
+        raise MissingExtraError("plotly is not installed; install it with: pip install 'elastogeo[report]'") from error
+    return str(get_plotlyjs()).encode()
 
 
 def scene_page(view: View) -> str | None:
@@ -51,7 +68,7 @@ def scene_page(view: View) -> str | None:
         loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
     drawing = view.scene.draw()
-    figure = {**drawing, "config": CONFIG}
+    figure = {**drawing, "config": PLOTLY_CONFIG}
     # a name with </script> in it must not end the element that holds the data
     data = json.dumps(figure, allow_nan=False, ensure_ascii=False).replace("<", "\\u003c")
     return environment.get_template("scene.html.j2").render(

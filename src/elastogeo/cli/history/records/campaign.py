@@ -31,14 +31,11 @@ def campaign(
     from elastogeo.cli import screen
 
     with eg.History(store, who=who) as history, screen.progress("identifying", quiet=as_json):
-        if number is not None:
-            found = history.recompute_campaign(number) if recompute else history.campaign(number)
-        else:
-            kept = history.campaigns(machine)
-    if number is not None:
-        screen.show(found, None, as_json)
-    elif as_json:
-        screen.show_json({"schema": "elastogeo.campaigns-kept/1", "campaigns": [one.to_dict() for one in kept]})
-    else:
-        lines = [f"{one.key}  {one.machine}: {one.name}, {len(one.tests)} tests" for one in kept]
-        screen.say("\n".join(lines) or "No campaign.")
+        found: object = (
+            history.campaigns(machine)
+            if number is None
+            else history.recompute_campaign(number)
+            if recompute
+            else history.campaign(number)
+        )
+    screen.show(found, None, as_json)

@@ -27,7 +27,7 @@ from elastogeo.report.view import Picture
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SIZE, NARROW = 520.0, 340.0
+SIZE, NARROW = 396.0, 320.0
 _SAME = 0.03
 """Share by which two levels that are one differ at most."""
 _EARLIER = (5.0, 3.0)

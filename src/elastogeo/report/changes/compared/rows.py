@@ -33,9 +33,9 @@ def indicator_table(result: ComparedTests) -> Table | None:
         else ""
     )
     return Table(
-        ("indicator", "before", "after", "unit", "change", *(("unchanged", "") if judged else ())),
+        ("indicator", "before", "after", "change", *(("unchanged", "scatter") if judged else ())),
         tuple(_indicator_row(one, judged) for one in result.indicators),
-        words=(0, 3, 6),
+        words=(0, 5),
         title="What changed, against the scatter of the machine" if judged else "What changed",
         note=note,
         strong=tuple(k for k, one in enumerate(result.indicators) if one.within is False),
@@ -56,8 +56,7 @@ def _indicator_row(one: IndicatorDifference, judged: bool) -> tuple[str, ...]:
         title_of(one.name),
         to_place_of(one.before * unit.factor, step),
         to_place_of(one.after * unit.factor, step),
-        unit.name,
-        f"{sign}{change}{percent}",
+        f"{sign}{change} {unit.name}{percent}",
     )
     if not judged:
         return row

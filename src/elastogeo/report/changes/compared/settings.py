@@ -7,7 +7,7 @@ from math import isfinite
 from typing import Any
 
 from elastogeo.changes import ComparedTests, SettingDifference
-from elastogeo.report.numbers import significant
+from elastogeo.report.numbers import pretty, significant
 from elastogeo.report.text import listed
 from elastogeo.report.view import Table
 
@@ -66,7 +66,7 @@ def _said(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, int | float):
-        return f"{value:g}" if isfinite(value) else significant(value)
+        return pretty(f"{value:g}") if isfinite(value) else significant(value)
     if isinstance(value, Mapping):
         text = ", ".join(f"{key} {_said(one)}" for key, one in value.items())
     elif isinstance(value, list | tuple):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from elastogeo.changes import (
+    Comparable,
     ComparedTest,
     ComparedTests,
     IndicatorDifference,
@@ -10,14 +11,15 @@ from elastogeo.changes import (
     SettingDifference,
 )
 from elastogeo.report.changes.compared.answers import advice_of, answer_of, badge_of
-from elastogeo.report.changes.compared.circles import circle_pictures
+from elastogeo.report.changes.compared.circles import circle_pictures, levels_of
 from elastogeo.report.changes.compared.document import compare_json
 from elastogeo.report.changes.compared.rows import indicator_table, parameter_table
 from elastogeo.report.changes.compared.settings import setting_name, settings_table
 from elastogeo.report.changes.words import shown_unit, title_of
-from elastogeo.report.days import short_date
+from elastogeo.report.days import iso_date, short_date
+from elastogeo.report.document import document
 from elastogeo.report.numbers import pretty, said_estimate
-from elastogeo.report.view import KeyValue, Section, View, lines, said, views
+from elastogeo.report.view import KeyValue, Section, Table, View, lines, said, views
 
 _KEY_VALUES = 5
 
@@ -51,8 +53,9 @@ def setting_difference_line(one: SettingDifference) -> str:
 @views(ComparedTests)
 def compared_view(result: ComparedTests) -> View:
     """What changed between two tests, and whether it is more than tests of this machine scatter."""
-    document = compare_json(result)
+    whole = compare_json(result)
     pictures = circle_pictures(result)
+    others = list(zip(levels_of(result), pictures, strict=True))[1:] if pictures else []
     tables = tuple(one for one in (indicator_table(result), parameter_table(result), settings_table(result)) if one)
     beyond = [one for one in result.indicators if one.within is not True]
     return View(
@@ -65,12 +68,36 @@ def compared_view(result: ComparedTests) -> View:
         values=tuple(_key_value(one) for one in beyond[:_KEY_VALUES]),
         picture=pictures[0] if pictures else None,
         checks=said(result.verdict),
-        document=document,
-        rows=document["parameters"] or document["indicators"],
+        document=whole,
+        rows=whole["parameters"] or whole["indicators"],
         tables=tables,
-        sections=(Section("Circles at the other levels", pictures=pictures[1:]),) if len(pictures) > 1 else (),
+        sections=tuple(Section(f"Circles at {force:g} N", pictures=(one,)) for force, one in others),
         badge=badge_of(result),
         advice=advice_of(result),
+    )
+
+
+@views(Comparable)
+def comparable_view(found: Comparable) -> View:
+    """The tests of a machine, of which two may be compared."""
+    entries = [{"test": one.key, "date": iso_date(one.date), "name": one.name, "series": one.recipe} for one in found.tests]
+    rows = tuple((short_date(one.date), one.name, one.recipe) for one in found.tests)
+    keys = tuple(one.key for one in found.tests)
+    return View(
+        kind="Tests",
+        title=found.machine,
+        subtitle=f"{len(rows)} {'test' if len(rows) == 1 else 'tests'}",
+        origin="",
+        head=(),
+        sentence="Choose two tests to compare."
+        if len(rows) > 1
+        else "This machine has one test; a second one is needed to compare.",
+        values=(),
+        picture=None,
+        checks=(),
+        document=document("elastogeo.comparable/1", {"machine": found.machine, "tests": entries}),
+        rows=entries,
+        tables=(Table(("date", "test", "series"), rows, words=(0, 1, 2), name="tests", keys=keys),),
     )
 
 
