@@ -69,6 +69,7 @@ def rows_of(connection: Connection, kept: Iterable[Kept], at: datetime) -> tuple
     }
     serials = dict(connection.execute(select(instrument.c.id, instrument.c.serial)).all())
     silent = silent_until(connection, at)
+    origins = _origins(connection, [one.series for one in kept if one.series is not None])
     rows = []
     for one in kept:
         own = named.get(one.series) if one.series is not None else None
@@ -90,7 +91,7 @@ def rows_of(connection: Connection, kept: Iterable[Kept], at: datetime) -> tuple
                 at=days(one.steps[-1].at or one.opened),
                 holds=_holds(connection, one),
                 silent_until=None if until is None else days(until),
-                simulated=simulated(connection, one.series),
+                simulated=simulated(connection) if one.series is None else origins.get(one.series, ""),
                 place=own.place if own is not None else "",
                 shown=shown,
                 held_by=one.held_by if one.is_held else None,
@@ -131,13 +132,29 @@ def overdue(connection: Connection, at: datetime) -> tuple[OverdueRow, ...]:
     return tuple(sorted(found, key=lambda row: (-row.overdue, row.machine, row.series)))
 
 
+def _origins(connection: Connection, keys: list[int]) -> dict[int, str]:
+    """By series from what its tests are simulated; empty if any was measured."""
+    rows = connection.execute(
+        select(test.c.series, test.c.origin, test.c.from_what).where(test.c.series.in_(keys)).distinct()
+    )
+    found: dict[int, list[tuple[str, str]]] = {}
+    for row in rows:
+        found.setdefault(row.series, []).append((row.origin, row.from_what))
+    return {key: _simulated(of) for key, of in found.items()}
+
+
 def simulated(connection: Connection, key: int | None = None) -> str:
     """From what the tests of a series, or of all, are simulated; empty if any was measured or there is none."""
     which = select(test.c.origin, test.c.from_what).distinct()
-    rows = connection.execute(which if key is None else which.where(test.c.series == key)).all()
-    if any(row.origin != "simulated" for row in rows):
+    rows = connection.execute(which if key is None else which.where(test.c.series == key))
+    return _simulated([(row.origin, row.from_what) for row in rows])
+
+
+def _simulated(origins: Iterable[tuple[str, str]]) -> str:
+    origins = list(origins)
+    if any(origin != "simulated" for origin, _ in origins):
         return ""
-    return "; ".join(sorted({row.from_what or "a model" for row in rows}))
+    return "; ".join(sorted({what or "a model" for _, what in origins}))
 
 
 def _state(one: Kept) -> str:

@@ -141,7 +141,7 @@ def series_view(result: SeriesRecord) -> View:
         keys=tuple(test.key for test in result.tests),
     )
     baselines = Table(
-        ("Set", "Tests", "Who", "Why", ""),
+        ("Set", "Tests", "Who", "Why", "Now"),
         tuple(
             (date_said(set_.set_at), str(set_.tests), set_.who, set_.why, "holds" if set_.holds else "holds no more")
             for set_ in result.baselines

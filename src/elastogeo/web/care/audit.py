@@ -14,7 +14,7 @@ from elastogeo.web.pages import Pages
 pages = Pages()
 PAGE = 100
 """Rows of a page."""
-QUICK = 5_000
+QUICK = 1_000
 """Rows up to which the whole trail is checked each time that it is shown; a longer one when somebody asks."""
 
 
