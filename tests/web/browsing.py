@@ -21,7 +21,7 @@ import pytest
 
 from tests.linuxcnc.unpacked import alone, cache_folder, is_debian
 
-PATIENCE = 30.0
+PATIENCE = 120.0
 """Seconds in which a server must answer, on a computer that does much else."""
 ABORTED = "net::ERR_ABORTED"
 """What the page itself gave up: a poll that a click overtook, an address that became a download."""

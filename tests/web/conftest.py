@@ -127,7 +127,7 @@ def screens(browser: Any) -> Iterator[Screens]:
 
         def open_one(url: str, **how: Any) -> Watched:
             context = browser.new_context(**{"viewport": DESKTOP, "reduced_motion": "reduce", "locale": "en-GB", **how})
-            context.set_default_timeout(10_000)
+            context.set_default_timeout(30_000)
             opened.callback(context.close)
             pages.append(Watched(context.new_page(), url))
             return pages[-1]

@@ -9,6 +9,7 @@ import pytest
 from tests.web.addresses import addresses
 from tests.web.browsing import Watched
 from tests.web.conftest import PHONE
+from tests.web.keyboard import not_reached
 
 SERIOUS = ("serious", "critical")
 SMALLEST_TEXT = 12
@@ -81,6 +82,13 @@ def test_a_page_shuts_nobody_out_and_fits_the_phone(path: str, screen: Watched, 
     page.set_viewport_size(PHONE)
     faults["phone"] = faults_on_a_phone(page)
     assert not any(faults.values()), "\n".join(f"{where}: {one}" for where, found in faults.items() for one in found)
+
+
+@pytest.mark.parametrize("path", addresses())
+def test_every_control_is_reached_by_tab(path: str, screen: Watched) -> None:
+    screen.go(path)
+    faults = not_reached(screen.page)
+    assert not faults, "\n".join(faults)
 
 
 @pytest.mark.parametrize("path", ["/", "/machines/1"])

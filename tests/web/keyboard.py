@@ -1,0 +1,74 @@
+"""A person without a mouse: where Tab leads, whether the place is seen, and Enter."""
+
+from __future__ import annotations
+
+from typing import Any
+
+FURTHEST = 250
+"""Stops of Tab after which nobody would go on."""
+
+CONTROLS = """() => {
+  const radios = new Set();
+  return [...document.querySelectorAll("a[href], button, input, select, textarea, summary")].filter((one) => {
+    if (!one.checkVisibility({ visibilityProperty: true }) || one.disabled) return false;
+    if (one.type === "hidden" || one.tabIndex < 0) return false;
+    if (one.closest("svg[aria-hidden=true], [inert]")) return false;
+    if (one.type === "radio") { if (radios.has(one.name)) return false; radios.add(one.name); }
+    return true;
+  }).map((one) => one.type === "radio" ? `radio ${one.name}` : one.outerHTML.slice(0, 160));
+}"""
+FOCUSED = """() => {
+  const one = document.activeElement;
+  if (!one || one === document.body) return null;
+  const style = getComputedStyle(one), seen = one.matches(":focus-visible") &&
+    ((style.outlineStyle !== "none" && parseFloat(style.outlineWidth) > 0) || style.boxShadow !== "none");
+  return [one.type === "radio" ? `radio ${one.name}` : one.outerHTML.slice(0, 160), seen];
+}"""
+
+
+def not_reached(page: Any) -> list[str]:
+    """Controls of a page that Tab does not lead to, or where one does not see that it did."""
+    missing, unseen = set(page.evaluate(CONTROLS)), []
+    page.evaluate("document.activeElement.blur()")
+    for _ in range(len(missing) + 60):
+        if not missing:
+            break
+        page.keyboard.press("Tab")
+        at = page.evaluate(FOCUSED)
+        if at is None:
+            continue
+        missing.discard(at[0])
+        if not at[1]:
+            unseen.append(f"focus is not seen: {at[0]}")
+    return [*(f"not reached: {one}" for one in sorted(missing)), *dict.fromkeys(unseen)]
+
+
+def tab_to(page: Any, wanted: Any) -> None:
+    """Press Tab until a control has the focus, forwards from where one is; the focus must be seen there."""
+    wanted.wait_for(state="visible")
+    for _ in range(FURTHEST):
+        if wanted.evaluate("one => one === document.activeElement"):
+            assert wanted.evaluate("one => one.matches(':focus-visible')"), "the focus is not seen"
+            return
+        page.keyboard.press("Tab")
+    raise AssertionError(f"Tab does not lead to {wanted}")
+
+
+def press(page: Any, wanted: Any) -> None:
+    """Go to a link or a button by Tab, and press Enter there."""
+    tab_to(page, wanted)
+    page.keyboard.press("Enter")
+
+
+def send(page: Any, wanted: Any) -> None:
+    """The same, where another page follows."""
+    tab_to(page, wanted)
+    with page.expect_navigation():
+        page.keyboard.press("Enter")
+
+
+def write(page: Any, field: Any, text: str) -> None:
+    """Go to a field by Tab, and type."""
+    tab_to(page, field)
+    page.keyboard.press("ControlOrMeta+A")
+    page.keyboard.type(text)
