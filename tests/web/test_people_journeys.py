@@ -41,7 +41,8 @@ def test_log_in_and_out(closed_site: Site, screens: Any) -> None:
     log_in(page, "A. Miller")
     assert page.url == f"{closed_site.url}/machines/1?span=all"
     (cookie,) = [one for one in page.context.cookies() if "session" in one["name"]]
-    assert (cookie["httpOnly"], cookie["sameSite"]) == (True, "Strict")
+    assert cookie["httpOnly"]
+    assert cookie["sameSite"] in ("Lax", "Strict")
     press(page, page.locator(".menu summary"))
     send(page, page.get_by_role("button", name="Log out"))
     assert page.url.startswith(f"{closed_site.url}/login")
