@@ -6,8 +6,8 @@ import re
 
 from elastogeo.web.app import every
 
-KEYS = {"machines": "1", "tests": "8", "campaigns": "1", "plans": "1", "alarms": "1", "jobs": "1", "instruments": "1"}
-"""Of each kind of thing, one of the fleet: the machine in alarm and its last test."""
+KEYS = {"tests": "8"}
+"""Of each kind of thing the first: the machine in alarm; of tests its last."""
 ASKED = {"/compare": "?a=7&b=8", "/explore": "?test=8", "/search": "?q=Hermle"}
 """What a page is asked with that shows nothing without it."""
 ALSO = ("/machines/2", "/machines/3", "/machines/4", "/tests/24", "/tests/25", "/tests/26", "/tests/27")
@@ -15,12 +15,13 @@ ALSO = ("/machines/2", "/machines/3", "/machines/4", "/tests/24", "/tests/25", "
 
 
 def addresses() -> list[str]:
-    """All pages, in the order of their names."""
+    """All pages; those of tests first, since each makes the job that draws it."""
     routes = [route for pages in every() for route in pages.routes]
     paths = {route.path for route in routes if "GET" in route.methods}  # type: ignore[attr-defined]
     pages = {path.removesuffix(".json") for path in paths if path.endswith(".json")} - {"/fleet"} | {"/"}
     found = {_filled(path) for path in pages}
-    return sorted(found | {path for path in ALSO if re.sub(r"/(\w+)/\d+", _keyed, path) in found})
+    found |= {path for path in ALSO if re.sub(r"/(\w+)/\d+", _keyed, path) in found}
+    return sorted(found, key=lambda path: (not path.startswith("/tests/"), path))
 
 
 def _filled(path: str) -> str:
@@ -28,4 +29,4 @@ def _filled(path: str) -> str:
 
 
 def _keyed(found: re.Match[str]) -> str:
-    return f"/{found[1]}/{KEYS[found[1]]}"
+    return f"/{found[1]}/{KEYS.get(found[1], '1')}"

@@ -85,6 +85,7 @@ def site(made_fleet: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator
     """The fleet, served for all tests that only look at it."""
     folder = tmp_path_factory.mktemp("site")
     with serving(copy_of(made_fleet, folder / "fleet"), folder / "serve.log") as found:
+        found.get("/tests/8")  # so that there is a job
         yield found
 
 
