@@ -51,9 +51,11 @@ from fastapi import APIRouter, Request, Response
 from fastapi.routing import APIRoute
 
 from elastogeo.web.answering import CSV, HTML, JSON, Done, Shown, gone_on, rendered
-from elastogeo.web.asking import READER, Asked, asked_of
+from elastogeo.web.asking import READER, Asked, NotFound, asked_of
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+LARGEST = 2**63
+"""The first number that is no key of a database."""
 MEDIA = {HTML: "text/html", JSON: "application/json", CSV: "text/csv"}
 
 
@@ -66,6 +68,9 @@ class Page(APIRoute):
 
         async def handler(request: Request) -> Response:
             asked_of(request).needs(role)
+            for name, said in (*request.path_params.items(), *request.query_params.items()):
+                if str(said).lstrip("-").isdecimal() and abs(int(said)) >= LARGEST:
+                    raise NotFound(f"There is nothing of this number: {name}.")
             return await answer(request)
 
         return handler
