@@ -26,6 +26,11 @@ def test_what_anybody_may_ask_is_to_log_in_and_whether_we_are_well() -> None:
     assert len(shut()) > 20
 
 
+def test_no_address_is_registered_twice() -> None:
+    every = [(one.method, one.template) for one in addresses()]
+    assert sorted(every) == sorted(set(every))
+
+
 @pytest.mark.parametrize("one", shut(), ids=named)
 def test_without_an_account_an_address_says_nothing(shop: Shop, one: Address) -> None:
     """A person is sent to log in, a program is told."""

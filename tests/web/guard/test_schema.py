@@ -14,7 +14,7 @@ from schemathesis.config import GenerationConfig, ProjectConfig, ProjectsConfig,
 from elastogeo.web.asking import ADMINISTRATOR, ENGINEER, READER, ROLES
 from tests.web.guard.conftest import Shop
 
-SHORT, LONG = 4, 150
+SHORT, LONG = 3, 150
 """Requests of an address every day, and every night."""
 OWN = ("/logout", "/tokens/{number}/end", "/password")
 """What would shut ourselves out."""

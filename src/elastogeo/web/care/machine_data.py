@@ -38,10 +38,3 @@ def change_machine(
     asked.machine(key)
     known = asked.history.change_machine(key, name=name, kind=kind, serial=serial, place=place, why=why)
     return Done(f"/machines/{key}", f"{known.name} is kept so.")
-
-
-@pages.acts("/machines", role=ENGINEER)
-def add_machine(asked: Ask, name: Text, kind: Text = "", serial: Text = "", place: Text = "") -> Done:
-    """Add a machine."""
-    known = asked.history.add_machine(name, kind=kind, serial=serial, place=place)
-    return Done(f"/machines/{known.key}", f"{known.name} is kept. Upload its first test now.")
