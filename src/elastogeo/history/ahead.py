@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
+from math import cos, radians, sin
 from typing import Any
 
 from sqlalchemy import select
@@ -24,15 +25,17 @@ from elastogeo.history.analyses.bases import Basis, bases, definition_of
 from elastogeo.history.analyses.kept_plans import due_date, keep_plan, plans
 from elastogeo.history.analyses.map_job import MAP
 from elastogeo.history.analyses.plan_job import PLAN
-from elastogeo.history.analyses.planned_files import program_of
+from elastogeo.history.analyses.planned_files import folder_of, program_of
 from elastogeo.history.jobs import rows
 from elastogeo.history.store import Store, now, read
 from elastogeo.history.store.schema import job
 from elastogeo.planning import proposals
-from elastogeo.prediction import ElementMap
+from elastogeo.prediction import ElementMap, MapSection, section_of
 
 STIFFNESS_KIND = "stiffness"
 _MOST_JOBS = 200
+_ROUNDING = 1e-12
+"""Of a direction's part: less is the rounding of a cosine."""
 
 
 class Ahead:
@@ -78,6 +81,39 @@ class Ahead:
         if found.kind != MAP or found.state != DONE or found.result is None:
             raise InputError(f"job {found.key} has made no map")
         return ElementMap.of_document(found.result["map"])
+
+    def map_section(
+        self,
+        found: KeptJob,
+        plane: str = "",
+        height: int | None = None,
+        azimuth: float = 0.0,
+        elevation: float = 0.0,
+        assumed: bool = False,
+    ) -> MapSection:
+        """A section through the map that a job made.
+
+        Parameters
+        ----------
+        found : KeptJob
+        plane : str
+            Two axes: `XY`.
+        height : int, optional
+            Place of the third axis, counted from 0.
+        azimuth, elevation : float [deg]
+            Of the direction: from X to Y, and up to Z.
+        assumed : bool
+            Whether to show what rests on rigid joints.
+
+        Raises
+        ------
+        InputError
+            If the job made no map, or the section is none.
+        """
+        a, e = radians(azimuth), radians(elevation)
+        way = cos(e) * cos(a), cos(e) * sin(a), sin(e)
+        exact = tuple(0.0 if abs(part) < _ROUNDING else part for part in way)
+        return section_of(self.map_of(found), plane, height, exact, assumed)
 
     def components(self, machine: int) -> tuple[str, ...]:
         """The components of a machine that planned tests may tell apart.
@@ -187,6 +223,16 @@ class Ahead:
             If the machine cannot make it.
         """
         return program_of(self.plan_files(number), test, flavour)
+
+    def plan_folder(self, number: int) -> bytes:
+        """The folder to measure of a plan, as a zip: its tests, and their programs for every control.
+
+        Raises
+        ------
+        InputError
+            If there is no such plan, or it was kept without the files of its tests.
+        """
+        return folder_of(self.plan_files(number))
 
     def plan_files(self, number: int) -> Mapping[str, str]:
         """The folder to measure of a plan: texts by their paths; empty if it was kept without."""

@@ -9,7 +9,7 @@ from typing import Any
 
 from elastogeo.changes.records.plans import KeptPlan
 from elastogeo.equality import ByValue
-from elastogeo.result import Result
+from elastogeo.result import Part, Result
 
 TELL, STIFFNESS, WORKSPACE, PARAMETERS = "tell apart", "stiffness", "workspace", "parameters"
 GOALS = (TELL, STIFFNESS, WORKSPACE, PARAMETERS)
@@ -20,12 +20,13 @@ ONE, WITHIN, ENOUGH, MORE = "one test", "within the time", "as many as it takes"
 WAYS = (ONE, WITHIN, ENOUGH, MORE)
 """How a goal may be reached."""
 
-STANDS_OUT = 2.0
-"""Noise of the readings, in standard deviations, by which a fault must stand out."""
+SEEN, STANDS_OUT = 4.0, 2.0
+"""Noise of the readings, in standard deviations: a fault that moves them by less is not seen; and by so much what is seen of
+it must stand out of all that the other component can do."""
 
 
-@dataclass(frozen=True, slots=True)
-class NextGoal:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class NextGoal(Part):
     """What tests are to be for.
 
     Attributes
@@ -73,7 +74,7 @@ class Way:
     @property
     def told(self) -> bool | None:
         """Whether it is told from the other component; None where it is not seen at all."""
-        return self.apart > STANDS_OUT if self.seen > STANDS_OUT else None
+        return self.apart > STANDS_OUT if self.seen > SEEN else None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from io import BytesIO
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from elastogeo.changes import ProgramFacts
 from elastogeo.errors import ElastogeoError, InputError
@@ -70,6 +72,30 @@ def program_of(files: Mapping[str, str], test: str, flavour: str) -> tuple[str, 
         programs, writing = programs_of(read_campaign(folder / test, planned=READINGS))
     ((name, program),) = programs.items()
     return f"{name}{known[flavour].suffix}", program_text(program, flavour, writing).encode("ascii")
+
+
+def folder_of(files: Mapping[str, str]) -> bytes:
+    """The folder to measure as a zip, with the programs of its tests for every control; the same bytes for the same plan.
+
+    Raises
+    ------
+    InputError
+        If there are no files.
+    """
+    if not files:
+        raise InputError("this plan was kept without the files of its tests; elastogeo plan --write makes them")
+    texts = {name: text.encode("utf-8") for name, text in files.items()}
+    tests = [PurePosixPath(name).parent.name for name in files if name.endswith("/test.toml")]
+    for flavour in flavours():
+        for test in tests:
+            with suppress(ElastogeoError):  # one that has no program is named where the programs are listed
+                name, content = program_of(files, test, flavour)
+                texts[f"{FOLDER}/programs/{flavour}/{name}"] = content
+    whole = BytesIO()
+    with ZipFile(whole, "w", ZIP_DEFLATED) as packed:
+        for name, content in sorted(texts.items()):
+            packed.writestr(ZipInfo(name), content, ZIP_DEFLATED)
+    return whole.getvalue()
 
 
 @contextmanager

@@ -18,7 +18,7 @@ from elastogeo.report.document import UM
 from elastogeo.report.drawing.plots import Band, Line, Mark, Place, Plot, Shape, Text
 from elastogeo.report.numbers import pretty
 
-WIDTH, LEFT, RIGHT, TOP, BOTTOM = 640.0, 62.0, 16.0, 12.0, 44.0
+WIDTH, LEFT, RIGHT, TOP, BOTTOM = 640.0, 62.0, 26.0, 34.0, 48.0
 HEIGHTS = (220.0, 520.0)
 """Least and greatest height of the field [px]."""
 CELLS = 6
@@ -58,6 +58,21 @@ def frame_of(section: MapSection) -> Frame:
         (float(up[0]), float(up[-1])),
         float(np.clip(ratio * (WIDTH - LEFT - RIGHT), *HEIGHTS)),
     )
+
+
+def frame_json(section: MapSection) -> dict[str, float]:
+    """Where the field lies, for those who draw it again [px], and how fine."""
+    return {
+        "width": WIDTH,
+        "left": LEFT,
+        "right": RIGHT,
+        "top": TOP,
+        "height": frame_of(section).height,
+        "cells": CELLS,
+        "lines": LINES,
+        "colours": COLOURS,
+        "levels": MOST_LEVELS,
+    }
 
 
 def levels_of(stiffness: Array) -> list[float]:
@@ -215,13 +230,13 @@ def _axes(section: MapSection, frame: Frame) -> Iterator[Shape]:
     for value in _ticks(*frame.x):
         x = frame.across(value)
         yield Line(((x, bottom), (x, bottom + 5)), "line")
-        yield Text(x, bottom + 18, level_said(value), "middle")
+        yield Text(x, bottom + 20, level_said(value), "middle")
     for value in _ticks(*frame.y):
         y = frame.up(value)
         yield Line(((LEFT - 5, y), (LEFT, y)), "line")
         yield Text(LEFT - 8, y + 4, level_said(value), "end")
-    yield Text((LEFT + right) / 2, bottom + 36, f"{section.axes[0]} [mm]", "middle")
-    yield Text(4, TOP + 12, f"{section.axes[1]} [mm]")
+    yield Text((LEFT + right) / 2, bottom + 42, f"{section.axes[0]} [mm]", "middle")
+    yield Text(4, TOP - 16, f"{section.axes[1]} [mm]")
 
 
 def _ticks(low: float, high: float) -> list[float]:

@@ -12,7 +12,7 @@ from elastogeo.prediction import ElementMap, Elements, MapSection, Spot, section
 from elastogeo.report.document import UM, document, verdict_entries
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.numbers import pretty, significant, value_with_uncertainty, whole_percent
-from elastogeo.report.predictions.section_plot import section_plot
+from elastogeo.report.predictions.section_plot import frame_json, section_plot
 from elastogeo.report.text import listed
 from elastogeo.report.view import KeyValue, Picture, Section, Table, View, said, views
 
@@ -85,6 +85,7 @@ def section_json(section: MapSection) -> dict[str, Any]:
             "axis": section.height_axis,
             "number": section.height,
             "mm": float(section.heights[section.height]) if section.height_axis else None,
+            "said": [pretty(f"{one:.{_DIGITS}g}") for one in section.heights],
         },
         "direction": section.direction.tolist(),
         "told": _plain(section.told),
@@ -94,6 +95,7 @@ def section_json(section: MapSection) -> dict[str, Any]:
         "known": int(section.known.sum()),
         "resting": int((section.resting & section.known).sum()),
         "places": int(section.known.size),
+        "frame": frame_json(section),
     }
 
 
