@@ -94,14 +94,20 @@ def in_um(length: float | None) -> float | None:
     return None if length is None else length * UM
 
 
+_AS_IT_IS = frozenset((str, int, bool, type(None)))
+
+
 def _plain(value: Any) -> Any:
-    """The same with plain JSON types only; a number that is not finite becomes null."""
-    if isinstance(value, Mapping):
+    """The same with plain JSON types only; a number that is not finite becomes null. The commonest kinds come first."""
+    kind = type(value)
+    if kind is float:
+        return value if isfinite(value) else None
+    if kind in _AS_IT_IS:
+        return value
+    if kind is dict or isinstance(value, Mapping):
         return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple | np.ndarray):
+    if isinstance(value, np.ndarray | np.generic):
+        return _plain(value.tolist())
+    if isinstance(value, list | tuple):
         return [_plain(item) for item in value]
-    if isinstance(value, np.generic):
-        return _plain(value.item())
-    if isinstance(value, float) and not isfinite(value):
-        return None
-    return value
+    return None if isinstance(value, float) and not isfinite(value) else value

@@ -201,6 +201,8 @@ class View:
         A picture that can be turned, for a page of its own.
     badge : Badge or None
         The state of what is watched; none of a single test.
+    strong : tuple of str
+        Words of the sentence that a page sets bold: what changed, what it points to.
     advice : tuple of str
         What belongs to the answer and to the first screen: what it cannot tell, what to do next.
     document : mapping
@@ -226,6 +228,7 @@ class View:
     sections: tuple[Section, ...] = ()
     scene: Scene | None = None
     badge: Badge | None = None
+    strong: tuple[str, ...] = ()
     advice: tuple[str, ...] = ()
 
     @property

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterable
 from functools import cache
 from importlib.resources import files
 from typing import Any
 from urllib.parse import unquote
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from elastogeo.report import Picture, plot_svg, svg_of
 from elastogeo.version import VERSION
@@ -54,8 +55,16 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {"drawn": _drawn, "plot": lambda plot: Markup(plot_svg(plot))}
+    environment.filters |= {"drawn": _drawn, "plot": lambda plot: Markup(plot_svg(plot)), "strong": _strong}
     return environment
+
+
+def _strong(sentence: str, words: Iterable[str]) -> Markup:
+    """A sentence with some of its words set bold, where they come first."""
+    text = escape(sentence)
+    for one in dict.fromkeys(filter(None, words)):
+        text = text.replace(escape(one), Markup("<b>{}</b>").format(one), 1)
+    return text
 
 
 def _drawn(picture: Picture) -> Markup:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from math import inf, isfinite
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from elastogeo.changes import ALARM, DRIFT, NO_BASELINE, SUSPECT, ChangeVerdict, IndicatorState, as_suspected
 from elastogeo.estimate import Estimate
 from elastogeo.report.changes.answers import (
     advice,
     cannot_tell,
+    component_said,
     machine_of,
+    points_to,
     sentence_of_change,
     series_said,
     worst_of,
@@ -20,7 +22,16 @@ from elastogeo.report.changes.document import change_json
 from elastogeo.report.changes.points import test_said
 from elastogeo.report.changes.rows import cause_table, event_table, indicator_table, resolves_said, test_table
 from elastogeo.report.changes.trends.plot import trend_plot
-from elastogeo.report.changes.words import MARKS, TONES, change_interval_said, change_said, shown_unit, title_of, value_said
+from elastogeo.report.changes.words import (
+    MARKS,
+    TONES,
+    change_interval_said,
+    change_said,
+    predicate,
+    shown_unit,
+    title_of,
+    value_said,
+)
 from elastogeo.report.days import date_said, month_said, short_date, simulated_said
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.numbers import pretty, said_estimate, value_with_uncertainty
@@ -33,7 +44,12 @@ if TYPE_CHECKING:
 @views(ChangeVerdict)
 def change_view(verdict: ChangeVerdict) -> View:
     """All that is shown of a verdict."""
-    document, worst = change_json(verdict), worst_of(verdict)
+    return told(verdict, change_json(verdict))
+
+
+def told(verdict: ChangeVerdict, document: Mapping[str, Any]) -> View:
+    """All that is shown of a verdict, with this document."""
+    worst = worst_of(verdict)
     return View(
         kind="Change",
         title=machine_of(verdict),
@@ -42,6 +58,7 @@ def change_view(verdict: ChangeVerdict) -> View:
         badge=badge(verdict),
         head=tuple(_head(verdict)),
         sentence=sentence_of_change(verdict),
+        strong=strong_words(verdict, worst),
         advice=advice(verdict),
         values=() if worst is None else tuple(_values(verdict, worst)),
         picture=None if worst is None or not len(verdict.series) else trend_picture(verdict, worst),
@@ -51,6 +68,15 @@ def change_view(verdict: ChangeVerdict) -> View:
         tables=(indicator_table(verdict),) if verdict.indicators else (),
         sections=tuple(sections(verdict, worst)),
     )
+
+
+def strong_words(verdict: ChangeVerdict, worst: IndicatorState | None) -> tuple[str, ...]:
+    """What the answer is about: the change, and what it points to."""
+    seen = as_suspected(verdict) or worst
+    if verdict.state not in (ALARM, SUSPECT) or seen is None:
+        return ()
+    change = predicate(seen).removeprefix("is ").removeprefix("has ")
+    return (change, *(component_said(one).removeprefix("the ") for one in points_to(verdict)))
 
 
 def subtitle(verdict: ChangeVerdict) -> str:

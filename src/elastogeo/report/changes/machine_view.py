@@ -7,7 +7,7 @@ from typing import Any
 
 from elastogeo.changes import ALARM, OVERDUE, ChangeVerdict, MachineRow, MachineState
 from elastogeo.report.changes.answers import sentence_of_change, series_said, worst_of
-from elastogeo.report.changes.change_view import change_view
+from elastogeo.report.changes.change_view import told
 from elastogeo.report.changes.document import answer_entries, change_entries
 from elastogeo.report.changes.fleets.rows import row_said
 from elastogeo.report.changes.points import points_of
@@ -36,7 +36,7 @@ def machine_state_view(machine: MachineState) -> View:
             checks=(),
             document=whole,
         )
-    view = change_view(machine.series[0])
+    view = told(machine.series[0], whole)
     several = max(len(machine.series), len(machine.rows)) > 1
     table = _kept_series(machine) if machine.rows else series_table(machine)
     names = {verdict.series.name: series_said(verdict) for verdict in machine.series}
