@@ -90,7 +90,8 @@ def test_a_machine_says_its_verdict_draws_its_trend_and_lists_indicators_tests_a
     document = pages.get(f"/machines/{keys[ALARMED.name]}.json").json()
     assert document["schema"] == "elastogeo.machine/1"
     assert document["state"] == "alarm"
-    assert document["verdict"]["sentence"] in page
+    assert document["verdict"]["sentence"] in re.sub("</?b>", "", page)
+    assert re.search(r'<p class="sentence">[^<]* <b>[^<]+</b>', page)
     figure = page[page.index('<div class="wide"') : page.index('<div class="narrow"')]
     assert figure.count('class="mark"') == len(verdict.series)
     assert set(re.findall(r'data-key="(\d+)"', figure)) == set(verdict.series.tests)
