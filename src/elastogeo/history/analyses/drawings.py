@@ -19,7 +19,7 @@ from elastogeo.report import causes_document, kept_view, view_of
 from elastogeo.result import Result
 from elastogeo.version import VERSION
 
-SCHEMA = "elastogeo.drawing/2"
+SCHEMA = "elastogeo.drawing/3"
 """What was drawn otherwise is drawn anew."""
 
 
@@ -74,8 +74,8 @@ def drawing_of(connection: Connection, key: int) -> dict[str, Any] | None:
     Returns
     -------
     dict or None
-        `schema`; `view` as `kept_view` gave it; `causes` as `causes_document` gave it, None without a circle;
-        `document_sha256` of the result that was drawn: that of the analysis, if the raw files say the same again.
+        `schema`; `view` as `kept_view` gave it, and its `rows`; `causes` as `causes_document` gave it, None without a
+        circle; `document_sha256` of the result that was drawn: that of the analysis, if the raw files say the same again.
     """
     chosen = select(drawing.c.content).where(drawing.c.analysis == key, drawing.c.software == VERSION)
     found: dict[str, Any] | None = connection.execute(chosen).scalar_one_or_none()
@@ -88,5 +88,6 @@ def _content(result: Result) -> dict[str, Any]:
         "schema": SCHEMA,
         "view": kept_view(view),
         "causes": causes_document(result),
+        "rows": [dict(row) for row in view.rows],
         "document_sha256": sha256_of(dict(view.document)),
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -21,10 +21,11 @@ pages = Pages()
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """What is drawn of a test: its view, its causes if it is a circle, whether the raw files said the same again."""
+    """What is drawn of a test: view, rows, its causes if it is a circle, whether the raw files said the same again."""
 
     kept: KeptView
     causes: Mapping[str, Any] | None
+    rows: Sequence[Mapping[str, Any]]
     same: bool
 
 
@@ -54,7 +55,9 @@ def one_test(
     template = "machines/test_trace.html.j2" if asked.by_htmx and causes is not None else "machines/test.html.j2"
     more = {} if causes is None else {"causes": causes["causes"], "columns": causes["columns"]["runs"]}
     context = _context(asked, kept, found, force) | {"part": part}
-    return Shown(template, view, document={**view.document, **more}, rows=_rows(kept), context=context)
+    return Shown(
+        template, view, document={**view.document, **more}, rows=() if found is None else found.rows, context=context
+    )
 
 
 @pages.gives("/tests/{key:int}/drawn", media="text/html")
@@ -144,7 +147,7 @@ def _drawn(asked: Asked, kept: KeptTest) -> Drawn | None:
     if found is None:
         return None
     same = found["document_sha256"] == kept.analysis.document_sha256
-    return Drawn(view_kept(found["view"], kept.analysis.document), found["causes"], same)
+    return Drawn(view_kept(found["view"], kept.analysis.document), found["causes"], found["rows"], same)
 
 
 def _drawing_job(asked: Asked, kept: KeptTest) -> KeptJob | None:
@@ -196,13 +199,6 @@ def _report(asked: Asked, key: int) -> KeptView:
     if found is None:
         raise NotFound("The report is not drawn yet; open the page of the test, wait until it is drawn, and come back.")
     return found.kept
-
-
-def _rows(kept: KeptTest) -> list[Mapping[str, Any]]:
-    """The main table of what the test says: its parameters, faults or values."""
-    told = {} if kept.analysis is None else kept.analysis.document or {}
-    lists = (told.get(name) for name in ("parameters", "faults", "rows"))
-    return next((rows for rows in lists if isinstance(rows, list)), [])
 
 
 def _file(content: bytes, name: str, media: str) -> Response:
