@@ -60,6 +60,7 @@ def test_a_drawing_is_the_view_of_the_test(plain_store: Store) -> None:
     with read(plain_store) as connection:
         kept = connection.execute(select(schema.analysis.c.document_sha256)).scalar_one()
     assert found["document_sha256"] == kept
+    assert found["rows"] == json.loads(json.dumps([dict(row) for row in view.rows]))
 
 
 def test_a_circle_is_drawn_with_its_causes(plain_store: Store) -> None:
