@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from sqlalchemy import Connection, delete, insert, select
+from sqlalchemy import Connection, Row, delete, insert, select
 
 from elastogeo.errors import InputError
 from elastogeo.history.analyses.analysing import PROGRAM, analyse
 from elastogeo.history.analyses.computation import ask_again, sha256_of
+from elastogeo.history.analyses.differences import differences
 from elastogeo.history.analyses.raw import raw_files
 from elastogeo.history.store import Store, now, read, write
 from elastogeo.history.store.schema import analysis, drawing
@@ -19,7 +20,7 @@ from elastogeo.report import causes_document, kept_view, view_of
 from elastogeo.result import Result
 from elastogeo.version import VERSION
 
-SCHEMA = "elastogeo.drawing/3"
+SCHEMA = "elastogeo.drawing/4"
 """What was drawn otherwise is drawn anew."""
 
 
@@ -54,11 +55,11 @@ def draw(store: Store, test: int, who: str = PROGRAM, again: bool = False) -> in
     with read(store) as connection:
         if not again and drawing_of(connection, key) is not None:
             return key
-        refused = connection.execute(select(analysis.c.error).where(analysis.c.id == key)).scalar_one()
+        kept = connection.execute(select(analysis).where(analysis.c.id == key)).one()
         raw = raw_files(connection, test)
-    if refused:
-        raise InputError(f"test {test} could not be analysed, so there is nothing to draw: {refused}")
-    _, content, error = ask_again(store.files, raw, _content)
+    if kept.error:
+        raise InputError(f"test {test} could not be analysed, so there is nothing to draw: {kept.error}")
+    _, content, error = ask_again(store.files, raw, lambda result: _content(result, kept))
     if content is None:
         raise InputError(f"test {test} could not be drawn: {error}")
     with write(store) as connection:
@@ -75,19 +76,22 @@ def drawing_of(connection: Connection, key: int) -> dict[str, Any] | None:
     -------
     dict or None
         `schema`; `view` as `kept_view` gave it, and its `rows`; `causes` as `causes_document` gave it, None without a
-        circle; `document_sha256` of the result that was drawn: that of the analysis, if the raw files say the same again.
+        circle; `same_bits` and `differing`: whether the raw files say the same again, and how many entries differ by more
+        than last digits.
     """
     chosen = select(drawing.c.content).where(drawing.c.analysis == key, drawing.c.software == VERSION)
     found: dict[str, Any] | None = connection.execute(chosen).scalar_one_or_none()
     return found if found is not None and found["schema"] == SCHEMA else None
 
 
-def _content(result: Result) -> dict[str, Any]:
+def _content(result: Result, kept: Row[Any]) -> dict[str, Any]:
     view = view_of(result)
+    document = dict(view.document)
     return {
         "schema": SCHEMA,
         "view": kept_view(view),
         "causes": causes_document(result),
         "rows": [dict(row) for row in view.rows],
-        "document_sha256": sha256_of(dict(view.document)),
+        "same_bits": sha256_of(document) == kept.document_sha256,
+        "differing": len(differences(kept.document, document)),
     }

@@ -26,7 +26,8 @@ class Drawn:
     kept: KeptView
     causes: Mapping[str, Any] | None
     rows: Sequence[Mapping[str, Any]]
-    same: bool
+    same_bits: bool
+    differing: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,8 +147,8 @@ def _drawn(asked: Asked, kept: KeptTest) -> Drawn | None:
     found = asked.history.drawing(kept.analysis.key)
     if found is None:
         return None
-    same = found["document_sha256"] == kept.analysis.document_sha256
-    return Drawn(view_kept(found["view"], kept.analysis.document), found["causes"], found["rows"], same)
+    view = view_kept(found["view"], kept.analysis.document)
+    return Drawn(view, found["causes"], found["rows"], found["same_bits"], found["differing"])
 
 
 def _drawing_job(asked: Asked, kept: KeptTest) -> KeptJob | None:
@@ -168,7 +169,7 @@ def _context(asked: Asked, kept: KeptTest, found: Drawn | None, force: float | N
         "key": kept.key,
         "test": kept,
         "kept": None if found is None else found.kept,
-        "same": None if found is None else found.same,
+        "drawn": found,
         "causes": causes,
         "circle": None if causes is None else _circle(causes, force),
         "job": None if found is not None else _drawing_job(asked, kept),
