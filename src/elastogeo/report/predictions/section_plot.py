@@ -21,7 +21,7 @@ from elastogeo.report.numbers import pretty
 WIDTH, LEFT, RIGHT, TOP, BOTTOM = 640.0, 62.0, 26.0, 34.0, 48.0
 HEIGHTS = (220.0, 520.0)
 """Least and greatest height of the field [px]."""
-CELLS = 6
+CELLS = 10
 """Cells of colour between two places."""
 LINES = 2
 """Steps of a contour between two places."""

@@ -49,6 +49,7 @@ def workspace_map(
         "chosen": chosen,
         "section": None,
         "planes": (),
+        "made": None,
     }
     if job is None or job.state != "done":
         return Shown(PAGE, document={"map": None, "job": None if job is None else job.key}, rows=(), context=context)
