@@ -39,6 +39,32 @@ def test_the_digest_shows_what_is_open_and_its_json_says_the_same(shop, elastoge
     assert alarm["over"] == {"stiffness X": 1.8}
 
 
+def test_one_alarm_is_shown_with_what_happened_to_it_and_who_was_told(shop, elastogeo):
+    out = elastogeo("history", "digest", 1, "--store", shop)[1]
+    assert "Open, not acknowledged" in out
+    assert "stiffness X 1.8 times its limit" in out
+    found = json.loads(elastogeo("history", "digest", 1, "--json", "--store", shop)[1])
+    assert (found["schema"], found["alarm"]["number"]) == ("elastogeo.kept-alarm/1", 1)
+    assert [message["state"] for message in found["messages"]] == ["waiting"]
+    code, _, err = elastogeo("history", "digest", 9, "--store", shop)
+    assert code == 2
+    assert "there is no alarm 9" in err
+
+
+def test_instruments_are_listed_by_their_due_dates(shop, elastogeo):
+    elastogeo("history", "instrument", "B7", "--calibrated", "2025-03-01", "--due", "2025-09-01", "--store", shop)
+    elastogeo("history", "instrument", "A1", "--store", shop)
+    assert (
+        "2 instruments, 1 out of calibration, 1 without a due date."
+        in elastogeo("history", "instrument", "--store", shop)[1]
+    )
+    found = json.loads(elastogeo("history", "instrument", "--json", "--store", shop)[1])["instruments"]
+    assert [one["serial"] for one in found] == ["B7", "A1"]
+    code, _, err = elastogeo("history", "instrument", "--kind", "ball-bar", "--store", shop)
+    assert code == 2
+    assert "is no name for an instrument" in err
+
+
 def test_acknowledge_and_close_want_a_reason(shop, elastogeo):
     code, _, err = elastogeo("history", "acknowledge", 1, "--store", shop)
     assert code == 2

@@ -23,7 +23,7 @@ _STEP = 1000.0
 
 @lines(KeptCopy)
 def copy_line(one: KeptCopy) -> str:
-    """`3 May 2026 by A. Miller: backups/2026-05-03, 12 files, 3.4 MB`."""
+    """`3 May 2026 by A. Miller: backups/2026-05-03, 12 files, 3.40 MB`."""
     return f"{date_said(one.at)} by {one.who}: {one.place}, {one.files} files, {size_said(one.size)}"
 
 
@@ -79,7 +79,7 @@ def copies_view(result: KeptCopies) -> View:
 
 
 def size_said(size: int) -> str:
-    """`3.4 MB`."""
+    """`3.40 MB`: three digits."""
     number, unit = float(size), 0
     while number >= _STEP and unit < len(_UNITS) - 1:
         number, unit = number / _STEP, unit + 1

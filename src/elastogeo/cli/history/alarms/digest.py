@@ -2,19 +2,30 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
+import typer
+
 import elastogeo as eg
 from elastogeo.cli.options import STORE, AsJson, Store
 
 
-def digest(store: Store = STORE, as_json: AsJson = False) -> None:
-    """Show open alarms, overdue tests, messages that failed.
+def digest(
+    number: Annotated[
+        int | None, typer.Argument(metavar="[NUMBER]", help="Of one alarm: what happened to it, and who was told.")
+    ] = None,
+    store: Store = STORE,
+    as_json: AsJson = False,
+) -> None:
+    """Show open alarms, overdue tests, messages that failed; or one alarm.
 
     \b
-    Example:
+    Examples:
       elastogeo history digest
+      elastogeo history digest 12
     """
     from elastogeo.cli import screen
 
     with eg.History(store) as history:
-        found = history.alarms()
+        found = history.alarms() if number is None else history.alarm(number)
     screen.show(found, None, as_json)
