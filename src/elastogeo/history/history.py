@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -199,7 +200,10 @@ class History(Access, Ahead, Care, Looking, Records, Tasks):
 
     def back_up(self, folder: str | Path, step: Step = silent) -> Copied:
         """Copy everything into a new folder, while others work, check the copy, and note it in the audit trail."""
-        return note_copy(self.store, back_up(self.store, folder, step), self.who)
+        copied = back_up(self.store, folder, step)
+        with suppress(StoreError):  # a history that may only be read is backed up too
+            note_copy(self.store, copied, self.who)
+        return copied
 
     def verify(self, step: Step = silent) -> Verified:
         """Check that everything kept is as it was written."""

@@ -17,7 +17,9 @@ def digest(
     store: Store = STORE,
     as_json: AsJson = False,
 ) -> None:
-    """Show open alarms, overdue tests, messages that failed; or one alarm.
+    """Show open alarms, overdue tests, messages that failed.
+
+    With a number it shows one alarm: what happened to it, and who was told.
 
     \b
     Examples:
