@@ -232,6 +232,7 @@ class History(Access, Ahead, Care, Looking, Records, Tasks):
         date: str = "",
         undated: str = "",
         instrument: str = "",
+        source: str = "",
     ) -> Added:
         """Import one test, and say what the history says of its machine then.
 
@@ -249,6 +250,8 @@ class History(Access, Ahead, Care, Looking, Records, Tasks):
             When it counts as measured if neither says it.
         instrument : str
             Serial number of the instrument, if the test does not say it.
+        source : str
+            Where it came from, as it is to be noted; by default its path.
 
         Raises
         ------
@@ -257,6 +260,7 @@ class History(Access, Ahead, Care, Looking, Records, Tasks):
         """
         path = Path(path)
         asked = {"machine": machine, "repeats": repeats, "date": date, "undated": undated, "instrument": instrument}
+        asked |= {"source": source}
         imported = import_test(self.store, path, who=self.who, was_suspect=_was_suspect, **asked)  # type: ignore[arg-type]
         analysis = analyse(self.store, imported.test, self.who)
         return Added(

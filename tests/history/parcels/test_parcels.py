@@ -71,6 +71,8 @@ def test_tests_are_found_confirmed_imported_and_the_same_again_changes_nothing(h
         ]
         assert came["errors"] == found["errors"]
     assert len(history.series("Mill 3")) == 1
+    told = [row.new["from"] for row in history.audit(subject="test 1").rows if row.what == "import"]
+    assert told == ["upload: said"]
     again = done(history, "look", {"parcel": arrived(history.store, *sent)})
     assert [one["known"]["test"] for one in again.result["tests"]] == [1, 2]
     assert "2 tests known already: nothing was changed" in str(again)

@@ -13,6 +13,8 @@ from tests.history.intake.small_tests import write_test
 from tests.history.parcels.archives import packed
 from tests.history.parcels.test_parcels import files_of, parcels
 from tests.web.browsing import Site, Watched
+from tests.web.conftest import DESKTOP, PHONE
+from tests.web.test_every_page import faults_on_a_phone, found_by
 
 WORKED = 60_000
 """Milliseconds in which the worker must have done a short job, on a computer that does much else."""
@@ -23,6 +25,15 @@ DROP = """async (files) => {
   const event = new DragEvent("drop", {dataTransfer: given, bubbles: true, cancelable: true});
   document.getElementById("drop").dispatchEvent(event);
 }"""
+
+
+def nobody_is_shut_out(page: Any) -> None:
+    """The checks of every page, of one that stands only for a while."""
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-core, for its package is not there").Axe()
+    assert found_by(axe, page) == []
+    page.set_viewport_size(PHONE)
+    assert faults_on_a_phone(page) == []
+    page.set_viewport_size(DESKTOP)
 
 
 @pytest.fixture(scope="module")
@@ -57,10 +68,12 @@ def test_from_nothing_to_a_result_by_upload(own: Site, screens: Any, tmp_path: P
     page.get_by_role("button", name="Upload").click()
     page.get_by_role("button", name="Import").wait_for(timeout=WORKED)  # it comes by itself
     assert "at line 1, column 10" in page.locator(".errors").inner_text()
+    nobody_is_shut_out(page)
     page.locator("select[name=machine]").select_option("Mill 3")
     page.get_by_role("button", name="Import").click()
     page.get_by_text("1 new, 1 refused.").first.wait_for(timeout=WORKED)
     assert page.get_by_role("link", name="Monthly").get_attribute("href") == "/tests/1"
+    nobody_is_shut_out(page)
     assert page.locator("#job-said").inner_text() == "1 new, 1 refused."
     page.get_by_role("link", name="Mill 3").click()
     page.wait_for_url("**/machines/1")

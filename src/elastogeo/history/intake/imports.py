@@ -75,6 +75,7 @@ def import_test(
     date: str = "",
     undated: str = "",
     instrument: str = "",
+    source: str = "",
     was_suspect: WasSuspect | None = None,
 ) -> Imported:
     """Import one test.
@@ -96,6 +97,8 @@ def import_test(
         When it counts as measured if neither says it.
     instrument : str
         Serial number of the instrument, if the test does not say it: a campaign may.
+    source : str
+        Where it came from, as it is to be noted, if its path says nothing: that of an upload.
     was_suspect : callable, optional
         As of `repeated_by`.
 
@@ -127,7 +130,7 @@ def import_test(
             return known
         of = machine_of(connection, machine, about.machine_serial.strip(), str(found.path))
         return _write(
-            connection, found, about, sha256, day, of, who,
+            connection, found, about, sha256, day, of, who, source or str(found.path),
             lambda key, at: repeated_by(connection, key, at, repeats, was_suspect),
         )  # fmt: skip
 
@@ -194,6 +197,7 @@ def _write(
     day: Day,
     of: KnownMachine,
     who: str,
+    source: str,
     repeat: Callable[[int, datetime], tuple[int | None, bool]],
 ) -> Imported:
     """The rows of a test that is new."""
@@ -215,12 +219,12 @@ def _write(
         "instrument": instrument,
         "repeats": repeated,
         "who": about.operator,
-        "about": {**about.said(), "imported_from": str(found.path)},
+        "about": {**about.said(), "imported_from": source},
     }
     number = connection.execute(insert(test).values(row).returning(test.c.id)).scalar_one()
     _name_files(connection, number, found)
     kept = {name: row[name] for name in ("sha256", "name", "series", "repeats")}
-    audit.record(connection, who, "import", f"test {number}", new={**kept, "at": at.isoformat(), "from": str(found.path)})
+    audit.record(connection, who, "import", f"test {number}", new={**kept, "at": at.isoformat(), "from": source})
     notes = [said, note, *_remarks(connection, key, at, day, instrument, about)]
     if repeated is not None and by_itself:
         notes.append(

@@ -49,7 +49,9 @@ def _brought(work: Work, history: Any, top: Path, asked: dict[str, Any]) -> Iter
     for number, (place, serial, instrument) in enumerate(tests):
         work.step(f"importing {said(place, top)}", number, len(tests))
         try:
-            yield history.add(place, machine=chosen.get(serial), undated=asked.get("date", ""), instrument=instrument)
+            of, day = chosen.get(serial), asked.get("date", "")
+            name = f"upload: {said(place, top)}"
+            yield history.add(place, machine=of, undated=day, instrument=instrument, source=name)
         except StoreError:
             raise
         except ElastogeoError as error:
