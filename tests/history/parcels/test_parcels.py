@@ -105,7 +105,7 @@ def test_a_campaign_is_kept_with_its_tests(history, tmp_path):
     assert looked.result["campaigns"] == [{"path": "c", "name": "May", "tests": 2}]
     came = done(history, "import", {"parcel": looked.result["parcel"], "machines": {"": "Mill 3"}}).result
     assert (len(came["tests"]), len(came["campaigns"]), came["errors"]) == (2, 1, [])
-    assert [one.name for one in history.campaigns()] == ["May"]
+    assert [one.name for one in history.campaigns().campaigns] == ["May"]
 
 
 OUTSIDE = ("/etc/passwd", "../../../../../../../../../etc/passwd", "../../names.json")
