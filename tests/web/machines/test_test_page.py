@@ -13,6 +13,7 @@ from fastapi.testclient import TestClient
 import elastogeo as eg
 from elastogeo.errors import FormatError
 from elastogeo.history.analyses import computation
+from elastogeo.history.work import Work, kind_named
 from elastogeo.web import Settings, application
 from tests.history.analyses.kept import EXAMPLES
 
@@ -190,6 +191,18 @@ def test_drawing_again_is_a_job(browser: TestClient, history: eg.History) -> Non
     done = browser.post("/tests/1/draw", headers=SENT | {"Accept": "application/json"}).json()
     job = history.job(done["job"])
     assert (job.kind, job.asked) == ("draw", {"test": 1, "again": True})
+
+
+def test_recomputing_the_series_is_a_job_that_says_what_came_of_it(browser: TestClient, history: eg.History) -> None:
+    asked = {"series": history.test(2).series_key, "test": 2}
+    done = browser.post("/tests/2/recompute", headers=SENT | {"Accept": "application/json"}).json()
+    assert history.job(done["job"]).asked == asked
+    said: list[str] = []
+    work = Work(history.store, "A. Miller", lambda text, *_: said.append(text), lambda: False)
+    found = kind_named("recompute")(work, asked)
+    assert found is not None
+    assert (found["computed"], found["differing"], found["at"]) == (1, 0, "/tests/2")
+    assert said[-1] == found["said"]
 
 
 @pytest.mark.parametrize(

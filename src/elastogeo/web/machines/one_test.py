@@ -133,6 +133,13 @@ def draw_again(asked: Ask, key: int) -> Done:
     return Done(f"/tests/{key}", "The test is being evaluated and drawn again.", {"job": job})
 
 
+@pages.acts("/tests/{key:int}/recompute", role=ENGINEER)
+def recompute(asked: Ask, key: int) -> Done:
+    """Ask for the whole series of a test to be computed again from its raw files, and compared with what is kept."""
+    job = asked.history.put_job("recompute", {"series": _kept(asked, key).series_key, "test": key})
+    return Done(f"/jobs/{job}", "The series is being computed again from its raw files.", {"job": job})
+
+
 def _kept(asked: Asked, key: int) -> KeptTest:
     try:
         return asked.history.test(key)
