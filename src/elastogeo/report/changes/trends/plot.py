@@ -17,7 +17,7 @@ from elastogeo.report.changes.words import off_said, shown_unit, title_of, to_pl
 from elastogeo.report.days import month_said, short_date
 from elastogeo.report.drawing.plots import Band, Circle, Entry, Line, Mark, Place, Plot, Shape, Text
 
-_WIDE, _NARROW = (780.0, 420.0), (350.0, 260.0)
+_WIDE, _NARROW = (720.0, 410.0), (328.0, 250.0)
 """Width and height [px]."""
 _LETTER, _LINE = 6.6, 15.0
 """Width of a letter at most, and height of a line of them [px]."""
