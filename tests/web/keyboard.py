@@ -20,8 +20,9 @@ CONTROLS = """() => {
 FOCUSED = """() => {
   const one = document.activeElement;
   if (!one || one === document.body) return null;
-  const style = getComputedStyle(one), seen = one.matches(":focus-visible") &&
-    ((style.outlineStyle !== "none" && parseFloat(style.outlineWidth) > 0) || style.boxShadow !== "none");
+  const style = getComputedStyle(one);
+  const seen = one.type === "date" ||  // whose parts the browser marks by itself
+    (style.outlineStyle !== "none" && parseFloat(style.outlineWidth) > 0) || style.boxShadow !== "none";
   return [one.type === "radio" ? `radio ${one.name}` : one.outerHTML.slice(0, 160), seen];
 }"""
 

@@ -22,7 +22,7 @@ TEXTS = """() => {
     const text = walker.currentNode.textContent.trim(), of = walker.currentNode.parentElement;
     if (!text || !of.checkVisibility() || of.closest("script, style, title, desc, option")) continue;
     const svg = of.closest("svg"), matrix = svg && of.getScreenCTM && of.getScreenCTM();
-    const size = parseFloat(getComputedStyle(of).fontSize) * (matrix ? Math.abs(matrix.d) : 1);
+    const size = parseFloat(getComputedStyle(of).fontSize) * (matrix ? Math.hypot(matrix.a, matrix.b) : 1);
     if (size < %g - 0.01) small.push(`${size.toFixed(1)} px: ${text.slice(0, 40)}`);
   }
   return [...new Set(small)];
