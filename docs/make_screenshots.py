@@ -25,9 +25,9 @@ from tests.web.browsing import chromium_or_skip, serving  # noqa: E402
 from tests.web.fleets import DATABASE, make_fleet  # noqa: E402
 
 FOLDER = Path(__file__).with_name("web")
-COLOURS = 48
+COLOURS = 96
 """Of a picture: pages are flat."""
-TALLEST = 2400
+TALLEST = 1800
 """Pixels that a picture shows of a long page."""
 DESKTOP, PHONE, PAPER = (1400, 900), (390, 844), (794, 1123)
 LOOKS: dict[str, dict[str, Any]] = {
