@@ -1,12 +1,23 @@
-"""What is cared for in a history: instruments, what is wanted of each series, who is told. A part of `History`."""
+"""What is cared for in a history: alarms, instruments, wishes, recipients, backups, the audit trail. A part of `History`."""
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
+from datetime import datetime, timedelta
+from pathlib import Path
 
-from elastogeo.changes import InstrumentRecord, KeptCopies, KeptInstruments, KeptSettings, SeriesRecord
-from elastogeo.changes.alarms import Recipient, Recipients
-from elastogeo.errors import InputError
+from elastogeo.changes import (
+    AuditTrail,
+    InstrumentRecord,
+    KeptCopies,
+    KeptInstruments,
+    KeptSettings,
+    SeriesRecord,
+    Verified,
+)
+from elastogeo.changes.alarms import AlarmList, Delivery, KeptAlarm, Recipient, Recipients
+from elastogeo.errors import InputError, StoreError
 from elastogeo.history import alarms
 from elastogeo.history.intake.machines import KnownMachine, change_machine
 from elastogeo.history.jobs import kept_jobs, put_job
@@ -14,7 +25,12 @@ from elastogeo.history.registers.instruments import instrument_record, instrumen
 from elastogeo.history.registers.wanted import series_record, wanted_of_series
 from elastogeo.history.series_of import days
 from elastogeo.history.store import Store, now, read
-from elastogeo.history.upkeep.kept_copies import BACK_UP, VERIFY, kept_copies, place_of_copy
+from elastogeo.history.upkeep.backups import back_up
+from elastogeo.history.upkeep.exports import export
+from elastogeo.history.upkeep.kept_copies import BACK_UP, VERIFY, kept_copies, note_copy, place_of_copy
+from elastogeo.history.upkeep.manifests import Copied
+from elastogeo.history.upkeep.raw_copies import Step, silent
+from elastogeo.history.upkeep.verification import verify
 
 
 class Care:
@@ -142,3 +158,76 @@ class Care:
     def recipients(self) -> Recipients:
         """Who is told of alarms; of a web address the host only, since the rest may be a secret."""
         return alarms.recipients(self.store, whole=False)
+
+    def audit(
+        self, last: int = 20, subject: str = "", who: str = "", before: int | None = None, check: int | None = None
+    ) -> AuditTrail:
+        """The audit trail: its last rows (of a subject, of a person), and whether all of it is as it was written.
+
+        Parameters
+        ----------
+        last : int
+            Rows.
+        subject, who : str
+            Only the rows of this subject, by its first words (`test 12`, `series`), or of this person.
+        before : int, optional
+            Only rows before this one.
+        check : int, optional
+            Rows up to which the trail is checked, where a longer one would take too long; by default any is checked.
+        """
+        from elastogeo.history.store.trail import audit_trail
+
+        return audit_trail(self.store, last, subject, who, before, check)
+
+    def back_up(self, folder: str | Path, step: Step = silent) -> Copied:
+        """Copy everything into a new folder, while others work, check the copy, and note it in the audit trail."""
+        copied = back_up(self.store, folder, step)
+        with suppress(StoreError):  # a history that may only be read is backed up too
+            note_copy(self.store, copied, self.who)
+        return copied
+
+    def verify(self, step: Step = silent) -> Verified:
+        """Check that everything kept is as it was written."""
+        return verify(self.store, step)
+
+    def export(self, folder: str | Path, step: Step = silent) -> Copied:
+        """Write everything as files into a new folder."""
+        return export(self.store, folder, step)
+
+    def alarms(self, closed: float = 0.0) -> AlarmList:
+        """All that waits for somebody: open alarms, overdue tests, messages that did not arrive.
+
+        Parameters
+        ----------
+        closed : float [d]
+            With the alarms that were closed within so many days, and the machines of which nothing is sent.
+        """
+        with read(self.store) as connection:
+            return alarms.lately(connection, now(), timedelta(closed)) if closed else alarms.standing(connection, now())
+
+    def alarm(self, number: int) -> KeptAlarm:
+        """One alarm, open or closed, with all that happened to it.
+
+        Raises
+        ------
+        InputError
+            If there is none of this number.
+        """
+        with read(self.store) as connection:
+            return alarms.kept_alarm(connection, number, now())
+
+    def acknowledge(self, number: int, why: str) -> AlarmList:
+        """Say that somebody knows of an alarm; it stays open, and is told again only if it becomes worse."""
+        return alarms.acknowledge(self.store, number, self.who, why)
+
+    def close_alarm(self, number: int, *, repaired: bool, why: str) -> AlarmList:
+        """End an alarm: as repaired, so that a new baseline follows, or as false, so that the old one stays."""
+        return alarms.close(self.store, number, repaired, self.who, why)
+
+    def silence(self, machine: str, until: datetime | None, why: str) -> None:
+        """Send nothing of a machine until then, None: until now; what is held back is sent afterwards."""
+        alarms.silence_machine(self.store, machine, until, self.who, why)
+
+    def deliver(self) -> Delivery:
+        """Send what is due, this week's digest included."""
+        return alarms.deliver(self.store)

