@@ -13,7 +13,7 @@ web: ## serve the pages, with a fleet to look at
 test: ## set up everything that the tests need and run all of them
 	@$(PYTHON) make.py test
 
-bench: ## time whole commands, the solver, campaigns, plans, programs, maps, paths and a history (minutes)
+bench: ## time whole commands, the solver, campaigns, plans, programs, maps, paths, a history, pages (minutes)
 	@$(PYTHON) make.py bench
 
 studies: ## count how often each check of a verdict is right, and write docs/verdicts.md (half an hour)

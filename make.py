@@ -40,7 +40,7 @@ TASKS = {
     "web": ("serve the pages, with a fleet to look at", ["web"], [("web", ["-m", "elastogeo", "serve", "--demo"])]),
     "test": ("run every test", DEVELOPER, [("test", PYTEST)]),
     "bench": (
-        "time whole commands, the solver, campaigns, plans, programs, maps, paths and a history (minutes)",
+        "time whole commands, the solver, campaigns, plans, programs, maps, paths, a history, pages (minutes)",
         DEVELOPER,
         [
             ("commands", ["benchmarks/commands.py"]),
@@ -53,6 +53,7 @@ TASKS = {
             ("paths", ["benchmarks/paths.py"]),
             ("changes", ["benchmarks/changes.py"]),
             ("history", ["benchmarks/history.py"]),
+            ("web", ["benchmarks/web.py"]),
         ],
     ),
     "studies": (

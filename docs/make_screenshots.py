@@ -65,7 +65,9 @@ def make(browser: Browser, url: str, paths: list[str], folder: Path) -> int:
         )
         page = context.new_page()
         for path in paths:
-            page.goto(url + path)
+            answer = page.goto(url + path)
+            if answer is None or answer.status != 200:
+                raise SystemExit(f"{path} answered {answer and answer.status}; no pictures of errors")
             page.locator("[hx-trigger*='every 1s']").wait_for(state="detached", timeout=120_000)
             time.sleep(0.3)  # until what scripts draw is there
             page.emulate_media(media=how.get("media", "screen"))
