@@ -44,7 +44,7 @@ def test_runs_are_switched_and_the_residual_is_drawn(screen: Watched) -> None:
     assert lines.count() == 2 * runs
     page.get_by_label("residual").check()
     page.wait_for_function(f"document.querySelectorAll('#drawing .scatterlayer .trace').length === {runs}")
-    assert "measured − model" in (page.locator("#drawing .ytitle").text_content() or "")
+    assert "measured − model" in (page.locator("#drawing .gtitle").text_content() or "")
     page.get_by_role("button", name="None").click()
     page.wait_for_function("document.querySelectorAll('#drawing .scatterlayer .trace').length === 0")
     page.locator('input[name="run"]').first.check()

@@ -42,9 +42,10 @@
     const axis = { gridcolor: colour("--line"), zerolinecolor: colour("--soft"), automargin: true };
     const layout = {
       paper_bgcolor: colour("--paper"), plot_bgcolor: colour("--paper"), font: { color: colour("--ink"), size: 13 },
-      margin: { l: 60, r: 15, t: 15, b: 50 }, hovermode: "closest", uirevision: what, showlegend: drawing.clientWidth > 600,
+      margin: { l: 60, r: 15, t: 40, b: 50 }, hovermode: "closest", uirevision: what, showlegend: drawing.clientWidth > 600,
       xaxis: { ...axis, title: { text: along } },
-      yaxis: { ...axis, title: { text: what === "residual" ? `measured − model (${unit})` : `measured, model (${unit})` } },
+      yaxis: axis,
+      title: { text: what === "residual" ? `measured − model (${unit})` : `measured, model (${unit})`, x: 0, xanchor: "left", font: { size: 13 } },
     };
     window.Plotly.react(drawing, traces(what), layout, config);
   }
