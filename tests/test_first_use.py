@@ -55,7 +55,7 @@ def test_no_name_is_that_of_a_module(face: str) -> None:
 
 @pytest.mark.parametrize("face", FACES)
 def test_a_name_that_is_none_is_said(face: str) -> None:
-    with pytest.raises(AttributeError, match=rf"{face} has no 'nothing_of_the_kind'; it has \w+, "):
+    with pytest.raises(AttributeError, match=rf"{face} has no 'nothing_of_the_kind'; it has \w+"):
         _ = importlib.import_module(face).nothing_of_the_kind
 
 

@@ -1,6 +1,7 @@
 """Plans and recomputations through the door of the history and on the command line."""
 
 import json
+import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -138,16 +139,16 @@ def test_campaigns_are_listed_shown_and_asked_again(run: Run, shop: str) -> None
         tests = {name: keep_test(store, 1, found, name=name) for name, found in files.items()}
         keep_campaign(store, campaign_text("spring", tests, ["C_XXX", "C_YYY"]), tests)
     code, out, _ = run("campaign")
-    assert (code, out.strip()) == (0, "1  Mill 3: spring, 2 tests")
+    assert (code, re.findall(r"^spring\s+Mill 3\s.*\s2\s+not supported\s+1$", out, re.MULTILINE) != []) == (0, True)
     code, out, _ = run("campaign", 1)
-    assert (code, "Campaign: spring, Mill 3" in out, "Computed again" in out) == (0, True, False)
+    assert (code, "Campaign: spring, Mill 3" in out, "Computed again" in out) == (1, True, False)
     code, out, _ = run("campaign", 1, "--recompute", "--json")
     kept = json.loads(out)
-    assert (code, kept["same_bits"], kept["tests"]) == (0, True, tests)
+    assert (code, kept["same_bits"], kept["tests"]) == (1, True, tests)
     code, _, err = run("campaign", 2)
     assert (code, "there is no campaign 2" in err) == (2, True)
 
 
 def test_a_history_without_campaigns_says_so(run: Run) -> None:
-    assert run("campaign")[1].strip() == "No campaign."
+    assert "No campaign is kept" in run("campaign")[1]
     assert json.loads(run("campaign", "--json")[1])["campaigns"] == []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager, suppress
 from http.client import HTTPConnection
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from urllib.parse import urlsplit
@@ -40,20 +40,20 @@ def proxied(port: int, behind: str, prefix: str, strips: bool) -> Iterator[str]:
             if not self.path.startswith(f"{prefix}/"):
                 self.send_error(502, "not below the prefix")
                 return
-            inner = HTTPConnection(urlsplit(behind).netloc, timeout=30)
             body = self.rfile.read(int(self.headers.get("Content-Length") or 0))
             headers = {name: value for name, value in self.headers.items() if name.lower() not in HOP}
-            inner.request(self.command, self.path[len(prefix) :] if strips else self.path, body or None, headers)
-            answer = inner.getresponse()
-            content = answer.read()
+            with closing(HTTPConnection(urlsplit(behind).netloc, timeout=30)) as inner:
+                inner.request(self.command, self.path[len(prefix) :] if strips else self.path, body or None, headers)
+                answer = inner.getresponse()
+                content = answer.read()
             self.send_response(answer.status)
             for name, value in answer.getheaders():
                 if name.lower() not in HOP | {"content-length", "date", "server"}:
                     self.send_header(name, value)
             self.send_header("Content-Length", str(len(content)))
-            self.end_headers()
-            self.wfile.write(content)
-            inner.close()
+            with suppress(BrokenPipeError, ConnectionResetError):  # the browser went on before the page had come
+                self.end_headers()
+                self.wfile.write(content)
 
         def log_message(self, *_: object) -> None:
             """Nothing is told at the terminal."""

@@ -10,6 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 from typing import Any
+from urllib.error import HTTPError
 
 import pytest
 import yaml
@@ -120,4 +121,6 @@ def test_the_steps_of_the_page_lead_to_pages_that_answer(tmp_path: Path, monkeyp
     assert last[:4] == ["elastogeo", "serve", "--store", "shop.db"]
     with serving(tmp_path / "shop.db", tmp_path / "log", *last[4:]) as site:
         assert read(f"{site.url}/health")
-        assert b"<main" in read(f"{site.url}/")
+        assert b"Log in" in read(f"{site.url}/login")
+        with pytest.raises(HTTPError, match="401"):
+            read(f"{site.url}/")

@@ -12,7 +12,7 @@ from tests.web.fleets import ALARMED, LATE, SUSPECTED, VARIED
 def test_the_fleet_has_the_states_that_the_pages_show(fleet: Path) -> None:
     with History(fleet) as history:
         states = {one.machine: one.state for one in history.fleet().machines}
-        kept = history.campaigns(VARIED), history.plans(VARIED).plans
+        kept = history.campaigns(VARIED).campaigns, history.plans(VARIED).plans
     assert (states[ALARMED.name], states[SUSPECTED.name]) == (ALARM, SUSPECT)
     assert states[LATE.name] == OVERDUE
     assert states[VARIED] == NO_BASELINE

@@ -194,6 +194,11 @@ class Care:
         """Write everything as files into a new folder."""
         return export(self.store, folder, step)
 
+    def unknown_alarms(self) -> int:
+        """How many open alarms nobody has acknowledged, but for those that an instrument's alarm holds back."""
+        with read(self.store) as connection:
+            return alarms.unknown(connection)
+
     def alarms(self, closed: float = 0.0) -> AlarmList:
         """All that waits for somebody: open alarms, overdue tests, messages that did not arrive.
 

@@ -199,7 +199,7 @@ def _series(name: str, rows: Sequence[Any], told: _Told, names: Mapping[str, str
         repeats=np.array([place.get(row.repeats, -1) for row in rows], dtype=int),
         aside=np.array([row.id in aside for row in rows], dtype=bool),
         instruments=tuple(row.serial or "" for row in rows),
-        simulated="; ".join(dict.fromkeys(row.from_what for row in rows if row.origin == "simulated")),
+        simulated="\n".join(dict.fromkeys(row.from_what for row in rows if row.origin == "simulated")),
     )
 
 

@@ -53,5 +53,6 @@ def days_said(days: float) -> str:
 
 def simulated_said(simulated: str) -> str:
     """From what tests are simulated: of many simulations the first and how many more there are; empty for none."""
-    first, *others = simulated.split("; ")
-    return f"Simulated: {first}{f' and {len(others)} more' if others else ''}" if simulated else ""
+    first, *others = simulated.split("\n")
+    more = f" and {len(others)} more" if others else ""
+    return f"Simulated: {first.rstrip('.')}{more}" if simulated else ""

@@ -10,7 +10,7 @@ from urllib.parse import quote, urlsplit
 
 from fastapi import Depends, Request
 
-from elastogeo.errors import InputError
+from elastogeo.errors import InputError, StoreError
 from elastogeo.history import History, KnownMachine
 from elastogeo.version import VERSION
 from elastogeo.web.settings import Settings
@@ -84,6 +84,14 @@ class Asked:
         """`light`, `dark`, or `auto`: as the browser prefers."""
         asked = self.request.cookies.get("elastogeo_theme", "auto")
         return asked if asked in THEMES else "auto"
+
+    @cached_property
+    def unknown_alarms(self) -> int:
+        """How many alarms nobody has acknowledged; none where the history cannot be read, which the page says itself."""
+        try:
+            return self.history.unknown_alarms()
+        except StoreError:
+            return 0
 
     @property
     def says_something(self) -> bool:

@@ -36,8 +36,11 @@ def test_a_reader_sees_no_form_and_may_not_post(visit: Visit, history: eg.Histor
 
 def test_an_alarm_is_acknowledged_with_a_reason_that_everybody_sees(visit: Visit, history: eg.History) -> None:
     browser = visit(ENGINEER)
+    unknown = '<span class="unknown">1<span class="unseen"> not acknowledged</span>'
+    assert unknown in browser.get("/plans").text
     done = browser.post("/alarms/1/acknowledge", data={"why": "nut <ordered>"})
     assert done.status_code == 200
+    assert 'class="unknown"' not in browser.get("/plans").text
     assert "is acknowledged by B. Visitor; it stays open." in done.text
     assert "nut &lt;ordered&gt;" in done.text
     assert "nut <ordered>" not in done.text

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from elastogeo.history.alarms.assessing import assess, assess_waiting
     from elastogeo.history.alarms.delivery import deliver
     from elastogeo.history.alarms.judging import judged
-    from elastogeo.history.alarms.open_ones import lately, simulated, standing
+    from elastogeo.history.alarms.open_ones import lately, simulated, standing, unknown
     from elastogeo.history.alarms.silences import end_of, silence_machine
     from elastogeo.history.alarms.states import fleet
     from elastogeo.history.alarms.told import kept_alarm
@@ -30,7 +30,7 @@ _found = first_use(
         "delivery": "deliver",
         "judging": "judged",
         "addresses": "add_recipient recipients remove_recipient try_recipient",
-        "open_ones": "lately simulated standing",
+        "open_ones": "lately simulated standing unknown",
         "silences": "end_of silence_machine",
         "states": "fleet",
         "told": "kept_alarm",
@@ -57,6 +57,7 @@ __all__ = [
     "standing",
     "try_recipient",
     "try_rule_of",
+    "unknown",
 ]
 
 

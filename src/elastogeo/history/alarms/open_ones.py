@@ -40,6 +40,11 @@ def standing(connection: Connection, at: datetime) -> AlarmList:
     return AlarmList(days(at), tuple(ordered), overdue(connection, at), _failed(connection, at), simulated(connection))
 
 
+def unknown(connection: Connection) -> int:
+    """How many open alarms nobody has acknowledged, but for those that are held back."""
+    return sum(not kept.is_held and not is_acknowledged(kept.steps) for kept in open_alarms(connection))
+
+
 def lately(connection: Connection, at: datetime, closed: timedelta) -> AlarmList:
     """The same, with the alarms that were closed within so long, and the machines of which nothing is sent."""
     ended = select(alarm_step.c.alarm).where(alarm_step.c.state.in_(CLOSED), alarm_step.c.at > at - closed)
@@ -154,7 +159,7 @@ def _simulated(origins: Iterable[tuple[str, str]]) -> str:
     origins = list(origins)
     if any(origin != "simulated" for origin, _ in origins):
         return ""
-    return "; ".join(sorted({what or "a model" for _, what in origins}))
+    return "\n".join(sorted({what or "a model" for _, what in origins}))
 
 
 def _state(one: Kept) -> str:

@@ -10,7 +10,7 @@ from elastogeo.formats import Simulation, simulate
 from elastogeo.history.fleets.stories import Story
 from elastogeo.observe import Imperfection
 
-FROM_WHAT = "Not measured: simulated, a test of the fleet of `elastogeo history demo`."
+FROM_WHAT = "a test of the demo fleet; nothing was measured"
 FORCES = (50, 250, 500)
 READINGS = 90
 SCHEMA = "elastogeo.simulation/1"

@@ -114,7 +114,7 @@ def _table(table: Table) -> dict[str, Any]:
 
 
 def _table_of(entry: Mapping[str, Any]) -> Table:
-    lists = {name: tuple(entry[name]) for name in ("headings", "words", "strong", "keys")}
+    lists = {name: tuple(value) for name, value in entry.items() if isinstance(value, list)}
     sparks: tuple[Plot, ...] = tuple(map(plot_of, entry["sparks"]))
     rows = tuple(tuple(row) for row in entry["rows"])
     return Table(**{**entry, **lists, "rows": rows, "sparks": sparks})

@@ -53,7 +53,7 @@ def fleet_json(
                 }
                 for move in fleet.instruments
             ],
-            "simulated": "; ".join(dict.fromkeys(row.simulated for row in rows if row.simulated)),
+            "simulated": "\n".join(dict.fromkeys(row.simulated for row in rows if row.simulated)),
         },
     )
 

@@ -59,7 +59,7 @@ def _origin(fleet: FleetState) -> str:
     if not simulated:
         return ""
     some = f" ({len(simulated)} of {_machines(len(fleet.machines))})" if len(simulated) < len(fleet.machines) else ""
-    said = simulated_said("; ".join(dict.fromkeys(row.simulated for row in simulated)))
+    said = simulated_said("\n".join(dict.fromkeys(row.simulated for row in simulated)))
     return said.replace("Simulated", f"Simulated{some}", 1)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from elastogeo.changes import KeptCampaign, KeptCampaigns
 from elastogeo.report.changes.records_view import differing_line
-from elastogeo.report.days import iso_date, short_date
+from elastogeo.report.days import iso_date, short_date, simulated_said
 from elastogeo.report.document import document
 from elastogeo.report.numbers import display_unit, p_said, pretty, significant, value_with_uncertainty
 from elastogeo.report.text import MOST_TERMS, combination
@@ -43,7 +43,7 @@ def campaigns_view(kept: KeptCampaigns) -> View:
     ]
     return View(
         kind="Campaigns",
-        title=kept.machine or "Campaigns",
+        title=kept.machine or "all machines",
         subtitle=f"{count} {'campaign' if count == 1 else 'campaigns'}",
         origin=_origin(kept.campaigns),
         head=(),
@@ -179,6 +179,4 @@ def _state(one: KeptCampaign) -> str:
 
 def _origin(kept: tuple[KeptCampaign, ...]) -> str:
     said = dict.fromkeys(((one.document or {}).get("test") or {}).get("simulated", "") for one in kept)
-    first = [one for one in said if one]
-    more = f" and {len(first) - 1} more" if len(first) > 1 else ""
-    return f"Simulated: {first[0]}{more}" if first else ""
+    return simulated_said("\n".join(filter(None, said)))
