@@ -73,6 +73,14 @@ def test_every_key_does_what_the_list_of_keys_says(screen: Watched) -> None:
     page.keyboard.press("g")
     page.keyboard.press("f")
     page.wait_for_url(f"{screen.url}/")
+    page.keyboard.press("g")
+    page.keyboard.press("a")
+    page.wait_for_url(f"{screen.url}/alarms")
+    page.keyboard.press("j")
+    alarm = page.locator("article.alarm:focus-within")
+    assert alarm.get_by_role("link").first.inner_text() == page.evaluate("document.activeElement.textContent")
+    page.keyboard.press("a")
+    assert alarm.locator("textarea:focus").is_visible()
 
 
 def test_a_facet_is_chosen_without_a_button_and_stays_in_the_address(screen: Watched) -> None:

@@ -1,4 +1,5 @@
 // Draws the readings of a test with plotly: which runs, measured with model or the residual. The numbers come from the page's JSON.
+"use strict";
 (async () => {
   const card = document.getElementById("explore");
   if (!card || !window.Plotly) return;

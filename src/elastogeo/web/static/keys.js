@@ -1,4 +1,5 @@
 // Keys for those who do not reach for the mouse. Every action they start is also a link or a button on the page.
+"use strict";
 (() => {
   const KEYS = [
     ["/", "search"],

@@ -1,4 +1,5 @@
 // What a test says where the trend is pointed at, or walked through by the arrow keys; Enter or a click opens the test.
+"use strict";
 (() => {
   const marks = (figure) => [...figure.querySelectorAll("svg .mark")].filter((mark) => mark.getClientRects().length);
 

@@ -1,4 +1,5 @@
 // Drag and drop of files and folders, with the bytes sent so far. Without it the form of the page does the same.
+"use strict";
 (() => {
   const form = document.getElementById("upload");
   const [drop, going, bar, much, stop, said] = ["drop", "going", "sent", "how-much", "stop", "upload-said"].map((id) =>
