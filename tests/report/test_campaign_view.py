@@ -23,7 +23,7 @@ def two() -> Identification:
 def test_the_first_screen_says_what_the_tests_tell_together(two) -> None:
     view = view_of(two)
     assert view.subtitle == "xy + zx"
-    assert view.origin.startswith("Simulated: Not measured")
+    assert view.origin == "Simulated for this example; see README.md beside campaign.toml."
     assert "only by the 2 tests together" in view.sentence
     assert dict(view.head)["Tests"] == "xy, zx"
     assert dict(view.head)["Runs"] == "12, with 864 readings"

@@ -199,6 +199,11 @@ class Care:
         with read(self.store) as connection:
             return alarms.unknown(connection)
 
+    def simulated(self) -> str:
+        """From what all tests are simulated, one a line; empty if any was measured or there is none."""
+        with read(self.store) as connection:
+            return alarms.simulated(connection)
+
     def alarms(self, closed: float = 0.0) -> AlarmList:
         """All that waits for somebody: open alarms, overdue tests, messages that did not arrive.
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from elastogeo.discovery import first_use
 from elastogeo.report import showing as _showing  # noqa: F401  the renderer of every result registers itself
+from elastogeo.report.days import simulated_said
 from elastogeo.report.drawing.plot_svg import plot_svg
 from elastogeo.report.drawing.plots import Plot, plot_of
 from elastogeo.report.drawing.svg import svg_of
@@ -56,6 +57,7 @@ __all__ = [
     "says",
     "sentence_of",
     "significant",
+    "simulated_said",
     "svg_of",
     "value_with_uncertainty",
     "view_kept",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from datetime import UTC, datetime, timedelta
 from math import ceil, isfinite
 
@@ -51,8 +52,24 @@ def days_said(days: float) -> str:
     return f"{whole} day{'' if whole == 1 else 's'}"
 
 
+def origin_said(kind: str, what: str) -> str:
+    """`Simulated from ...`: the kind said once, as files often begin with it themselves; empty for nothing.
+
+    Parameters
+    ----------
+    kind : str
+        `simulated` or `reconstructed`, and which of several.
+    what : str
+        As the file says it: `Not measured: simulated from ...`.
+    """
+    said = re.sub(r"^not measured\W+", "", what.strip(), flags=re.IGNORECASE)
+    word = kind.split()[0]
+    rest = said[len(word) :] if said.casefold().startswith(word) else f": {said}"
+    return f"{kind[:1].upper()}{kind[1:]}{rest}" if said else ""
+
+
 def simulated_said(simulated: str) -> str:
     """From what tests are simulated: of many simulations the first and how many more there are; empty for none."""
     first, *others = simulated.split("\n")
     more = f" and {len(others)} more" if others else ""
-    return f"Simulated: {first.rstrip('.')}{more}" if simulated else ""
+    return f"{origin_said('simulated', first).rstrip('.')}{more}" if simulated else ""

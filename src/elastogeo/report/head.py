@@ -7,6 +7,7 @@ from typing import Any
 
 from elastogeo.machine import About
 from elastogeo.observe import Campaign, MachineTest, campaign_of
+from elastogeo.report.days import origin_said
 from elastogeo.report.numbers import significant
 from elastogeo.report.text import MICRO, in_micrometres
 from elastogeo.report.view import Section, Table
@@ -91,19 +92,19 @@ def origin(one: MachineTest | Campaign) -> str:
         return "; ".join(filter(None, (_origin_among(campaign, kind) for kind in ("simulated", "reconstructed"))))
     test = campaign.only
     if test.reconstructed:
-        return f"Reconstructed: {test.reconstructed}"
+        return origin_said("reconstructed", test.reconstructed)
     if not test.simulated:
         return ""
     marked = sum(bool(run.simulated) for run in test.runs)
     some = f" ({marked} of {len(test.runs)} runs)" if 0 < marked < len(test.runs) else ""
-    return f"Simulated{some}: {test.simulated}"
+    return origin_said(f"simulated{some}", test.simulated)
 
 
 def _origin_among(campaign: Campaign, kind: str) -> str:
     """Which of several tests are `simulated` or `reconstructed`, and from what; empty if none is."""
     told = {name: getattr(test, kind) for name, test in campaign.tests.items() if getattr(test, kind)}
     some = f" ({', '.join(told)})" if 0 < len(told) < len(campaign.tests) else ""
-    return f"{kind.capitalize()}{some}: {'; '.join(dict.fromkeys(told.values()))}" if told else ""
+    return origin_said(f"{kind}{some}", "; ".join(dict.fromkeys(told.values())))
 
 
 def _resolution(test: MachineTest) -> str:

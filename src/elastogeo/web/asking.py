@@ -12,6 +12,7 @@ from fastapi import Depends, Request
 
 from elastogeo.errors import InputError, StoreError
 from elastogeo.history import History, KnownMachine
+from elastogeo.report import simulated_said
 from elastogeo.version import VERSION
 from elastogeo.web.settings import Settings
 
@@ -92,6 +93,14 @@ class Asked:
             return self.history.unknown_alarms()
         except StoreError:
             return 0
+
+    @cached_property
+    def origin(self) -> str:
+        """That all there is was simulated, if so: for pages that show of everything, and of no one thing."""
+        try:
+            return simulated_said(self.history.simulated())
+        except StoreError:
+            return ""
 
     @property
     def says_something(self) -> bool:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
+import socket
 import subprocess
 import sys
 import threading
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 import uvicorn
 
@@ -35,11 +38,19 @@ def serve(settings: Settings, say: Callable[[str], None] = print) -> None:
 
     Raises
     ------
+    InputError
+        If the port cannot be had.
     StoreError
         If the history cannot be opened, or other computers are to be served and nobody could log in.
     """
-    with History(settings.store, create=_is_new(settings.store), files=settings.files, who=settings.who) as history:
+    is_new = _is_new(settings.store)
+    with (
+        listening(settings.host, settings.port) as sockets,
+        History(settings.store, create=is_new, files=settings.files, who=settings.who) as history,
+    ):
         check_reach(settings, history.store)
+        if is_new and not settings.demo:
+            say(f"{settings.store} was not there: a new, empty history was made")
         if settings.demo and not history.machines():
             history.put_job("demo", {"until": f"{datetime.now(UTC):%Y-%m-%dT00:00:00+00:00}"})
         if settings.worker:
@@ -53,12 +64,42 @@ def serve(settings: Settings, say: Callable[[str], None] = print) -> None:
         server = uvicorn.Server(config)
         say(f"elastogeo is at http://{settings.host}:{settings.port}{settings.prefix}/ ; stop it with Ctrl+C")
         try:
-            server.run()
+            server.run(sockets)
         finally:
             if worker is not None:
                 worker.stop()
-        if not server.started:
-            raise InputError(f"port {settings.port} of {settings.host} cannot be used; give another with --port")
+
+
+@contextmanager
+def listening(host: str, port: int) -> Iterator[list[socket.socket]]:
+    """The port at every address of a host, held until the end: it is asked for before anything is made or said.
+
+    Raises
+    ------
+    InputError
+        If another program has it, it may not be had, or no address of this computer has that name.
+    """
+    with ExitStack() as held:
+        try:
+            found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
+            sockets = [_bound(held, family, address) for family, _, _, _, address in dict.fromkeys(found)]
+        except OSError as error:
+            why = error.strerror or str(error)
+            raise InputError(
+                f"port {port} of {host} cannot be had: {why[:1].lower()}{why[1:]}; give another with --port, or an address "
+                "of this computer with --host"
+            ) from error
+        yield sockets
+
+
+def _bound(held: ExitStack, family: int, address: tuple[Any, ...]) -> socket.socket:
+    taken = held.enter_context(socket.socket(family, socket.SOCK_STREAM))
+    if os.name == "posix":
+        taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    if family == socket.AF_INET6:
+        taken.setsockopt(socket.IPPROTO_IPV6, socket.IPV6_V6ONLY, 1)
+    taken.bind(address)
+    return taken
 
 
 def _is_new(store: str | Path) -> bool:

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from ipaddress import ip_address
 from pathlib import Path
 
+from elastogeo.errors import InputError
+
+_PREFIX = re.compile(r"(/[\w~-][\w.~-]*)*", re.ASCII)
+"""Segments that every proxy and every cookie passes on as they are."""
 LOOPBACK = ("localhost", "127.0.0.1", "::1")
 """Names of this computer, which no other can reach."""
 
@@ -36,6 +41,11 @@ class Settings:
         Whether an empty history is filled with the simulated fleet.
     who : str
         In whose name things are done without accounts.
+
+    Raises
+    ------
+    InputError
+        If the prefix is no path of an address.
     """
 
     store: str | Path
@@ -49,6 +59,13 @@ class Settings:
     worker: bool = True
     demo: bool = False
     who: str = ""
+
+    def __post_init__(self) -> None:
+        if not _PREFIX.fullmatch(self.prefix):
+            raise InputError(
+                f"the prefix {self.prefix!r} is no beginning of an address; give letters, digits, '-', '_' and '.' "
+                "between slashes, such as /elastogeo"
+            )
 
     @property
     def is_reachable(self) -> bool:

@@ -217,7 +217,7 @@ def test_components_that_are_alike_are_named_once():
 
 def test_many_simulations_are_named_by_the_first_and_their_number():
     verdict = guideway()
-    named = replace(verdict, series=replace(verdict.series, simulated="; ".join(f"seed {k}" for k in range(12))))
+    named = replace(verdict, series=replace(verdict.series, simulated="\n".join(f"seed {k}" for k in range(12))))
     assert view_of(named).origin == "Simulated: seed 0 and 11 more"
     assert view_of(named).document["simulated"].count("seed") == 12
 

@@ -14,6 +14,7 @@ DEMO = Path("elastogeo-demo") / "history.db"
 
 
 def serve(
+    context: typer.Context,
     store: Store = STORE,
     demo: Annotated[bool, typer.Option("--demo", help="Show a simulated fleet, made in the folder elastogeo-demo.")] = False,
     host: Annotated[str, typer.Option(help="Where to listen; another than this computer needs accounts.")] = "127.0.0.1",
@@ -33,9 +34,16 @@ def serve(
       elastogeo serve --store shop.db
     """
     from elastogeo.cli.screen import say
+    from elastogeo.errors import InputError
     from elastogeo.web import Settings
     from elastogeo.web import serve as run
 
+    source = context.get_parameter_source("store")
+    if demo and source is not None and source.name == "COMMANDLINE":
+        raise InputError(
+            f"--demo shows a history of its own, {DEMO}, not {store}; leave out --store, or fill a new history with: "
+            "elastogeo history demo NEW.db"
+        )
     if demo:
         DEMO.parent.mkdir(exist_ok=True)
     run(

@@ -305,8 +305,8 @@ def _after_alarm(verdict: ChangeVerdict) -> str:
     known = verdict.alarm
     if known is not None and known.held_by:
         return (
-            f"Check instrument {known.held_by} and close its own alarm (`elastogeo history digest` has the number): as "
-            f"repaired once it is right again, as false if it was right. This alarm goes with it."
+            f"Check instrument {known.held_by} and close its own alarm: as repaired once it is right again, as "
+            f"false if it was right. This alarm goes with it."
         )
     if known is not None and known.acknowledged is None:
         which = "the alarm" if known.number is None else f"alarm {known.number}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from elastogeo.identification import BeforeAfter
+from elastogeo.report.days import origin_said
 from elastogeo.report.faults.comparison_document import comparison_json
 from elastogeo.report.faults.rows import YES, comparison_rows
 from elastogeo.report.head import head
@@ -40,7 +41,7 @@ def comparison_view(compared: BeforeAfter) -> View:
         kind="Comparison",
         title=before.machine.name,
         subtitle=f"{before.name} → {after.name}",
-        origin=f"Simulated: {'; '.join(simulated)}" if simulated else "",
+        origin=origin_said("simulated", "; ".join(simulated)),
         head=(*(("Before: " + label, text) for label, text in head(before)), *(("After: " + a, b) for a, b in head(after))),
         sentence=f"{answer} {attention_sentence(compared.verdict)}",
         values=tuple(KeyValue(r.name, pretty(r.change), r.unit, f"change; p = {r.p_value}") for r in rows[:KEY_VALUES]),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from elastogeo.drive import DriveTest
 from elastogeo.identification.feed_drives import AxisDrive, DriveIdentification
+from elastogeo.report.days import origin_said
 from elastogeo.report.feed_drives.document import drive_json
 from elastogeo.report.feed_drives.rows import (
     drive_rows,
@@ -47,7 +48,7 @@ def drive_view(result: DriveIdentification) -> View:
         kind="Feed drives",
         title=test.name,
         subtitle=f"axes {', '.join(test.axes)}",
-        origin=f"Simulated: {test.simulated}" if test.simulated else "",
+        origin=origin_said("simulated", test.simulated),
         head=_head(test),
         sentence=_answer(result),
         values=_values([axis for axis in result.axes if axis.parameters]),

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from elastogeo.changes import KeptAnalysis, KeptTest
-from elastogeo.report.days import date_said, iso_date, moment_said
+from elastogeo.report.days import date_said, iso_date, moment_said, origin_said
 from elastogeo.report.document import document
 from elastogeo.report.text import listed
 from elastogeo.report.view import Badge, Said, Section, Table, View, attention_sentence, views
@@ -162,9 +162,7 @@ def _badge(test: KeptTest, checks: tuple[Said, ...]) -> Badge:
 
 
 def _origin(test: KeptTest) -> str:
-    if test.origin == "measured" or test.origin in test.from_what.casefold():
-        return "" if test.origin == "measured" else test.from_what
-    return f"{test.origin.capitalize()}: {test.from_what}".removesuffix(": ")
+    return "" if test.origin == "measured" else origin_said(test.origin, test.from_what or test.origin)
 
 
 def _size(count: int) -> str:

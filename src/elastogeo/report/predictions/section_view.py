@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from elastogeo.prediction import ElementMap, Elements, MapSection, Spot, section_of
+from elastogeo.report.days import origin_said
 from elastogeo.report.document import UM, document, verdict_entries
 from elastogeo.report.extra import needs_report_extra
 from elastogeo.report.numbers import pretty, significant, value_with_uncertainty, whole_percent
@@ -38,7 +39,7 @@ def section_view(section: MapSection) -> View:
         kind="Stiffness map",
         title=found.machine,
         subtitle=pretty(f"stiffness along {direction_said(section)}, {plane_said(section)}"),
-        origin=f"Simulated: {found.simulated}" if found.simulated else "",
+        origin=origin_said("simulated", found.simulated),
         head=tuple(_head(section)),
         sentence=answer,
         values=tuple(_values(section)),

@@ -9,7 +9,7 @@ from fastapi import Form, Query, Response
 from elastogeo.changes import KeptJob, NextGoal
 from elastogeo.errors import ElastogeoError, InputError
 from elastogeo.formats import flavours
-from elastogeo.report import view_of
+from elastogeo.report import simulated_said, view_of
 from elastogeo.web.answering import Done, Shown
 from elastogeo.web.asking import ENGINEER, Ask, Asked, NotFound
 from elastogeo.web.pages import Pages
@@ -94,7 +94,7 @@ def new_plan(asked: Ask, key: int, job: Annotated[int | None, Query(ge=1)] = Non
         "instruments": asked.history.instruments_to_plan(),
         "job": made,
         "may_act": asked.visitor.may(ENGINEER),
-        "origin": next((f"Simulated: {one.series.simulated}" for one in verdicts if one.series.simulated), ""),
+        "origin": next((simulated_said(one.series.simulated) for one in verdicts if one.series.simulated), ""),
     }
     if not done or made is None:
         return Shown("work/new_plan.html.j2", document={"job": None if made is None else made.key}, rows=(), context=context)
