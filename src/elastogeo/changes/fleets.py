@@ -123,13 +123,16 @@ class MachineRow(Part):
     @staticmethod
     def of_document(document: dict[str, Any]) -> MachineRow:
         """What `document` gave."""
-        known = {field.name: document[field.name] for field in fields(MachineRow) if field.name in document}
+        known = {name: document[name] for name in _NAMES if name in document}
         known |= {name: nan if known[name] is None else known[name] for name in ("change", "mean")}
         low, high = (nan if end is None else end for end in known["change_interval"])
         strip = tuple((name, state, nan if ratio is None else ratio) for name, state, ratio in known["strip"])
         return MachineRow(
             **{**known, "change_interval": (low, high), "points_to": tuple(known["points_to"]), "strip": strip}
         )
+
+
+_NAMES = tuple(field.name for field in fields(MachineRow))
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -301,11 +304,11 @@ def fleet_state(rows: Iterable[MachineRow], now: float, instruments: Sequence[In
         current = _at(row, now)
         late |= {row.machine} if current.overdue > 0 else set()
         known = worst.get(row.machine)
-        if known is None or _order(current) < _order(known):
-            current = replace(current, open_alarms=current.open_alarms + (known.open_alarms if known else 0))
+        if known is None:
             worst[row.machine] = current
         else:
-            worst[row.machine] = replace(known, open_alarms=known.open_alarms + current.open_alarms)
+            shown = min(known, current, key=_order)
+            worst[row.machine] = replace(shown, open_alarms=known.open_alarms + current.open_alarms)
     machines = tuple(sorted(worst.values(), key=_order))
     counts = {state: sum(row.state == state for row in machines) for state in MACHINE_STATES}
     counts[OVERDUE] = len(late)
@@ -317,7 +320,8 @@ def _at(row: MachineRow, now: float) -> MachineRow:
     overdue = 0.0 if row.due is None else max(0.0, now - row.due - row.grace)
     state = row.state if not overdue else min(row.state, OVERDUE, key=_rank)
     since = row.due if state == OVERDUE != row.state else row.since
-    return replace(row, overdue=overdue, state=state, since=since)
+    same = (overdue, state, since) == (row.overdue, row.state, row.since)  # of most rows: a fleet has hundreds
+    return row if same else replace(row, overdue=overdue, state=state, since=since)
 
 
 def _order(row: MachineRow) -> tuple[int, float, str]:

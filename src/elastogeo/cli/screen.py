@@ -61,7 +61,7 @@ def show(result: object, report: Path | None, as_json: bool) -> None:
         with progress("writing the report", quiet=as_json):
             written = save_report(view, report)
     if as_json:
-        show_json(view.document)
+        show_json(dict(view.document))
     else:
         show_view(view)
         if written:

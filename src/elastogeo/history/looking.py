@@ -9,6 +9,7 @@ from elastogeo.errors import InputError
 from elastogeo.history.alarms.judging import judged
 from elastogeo.history.alarms.states import state_rows
 from elastogeo.history.finding import found_by
+from elastogeo.history.intake.machines import KnownMachine, machine_keyed
 from elastogeo.history.series_of import days
 from elastogeo.history.store import Store, now, read
 
@@ -22,6 +23,11 @@ class Looking:
     """
 
     store: Store
+
+    def known_machine(self, key: int) -> KnownMachine | None:
+        """The machine of a key; None if there is none."""
+        with read(self.store) as connection:
+            return machine_keyed(connection, key)
 
     def machine_shown(self, key: int, series: int | None = None) -> MachineState:
         """A machine by its key: one of its series judged, the others as they were judged last.

@@ -148,7 +148,7 @@ class Asked:
         ------
         NotFound
         """
-        found = next((one for one in self.history.machines() if one.key == key), None)
+        found = self.history.known_machine(key)
         if found is None:
             raise NotFound("There is no such machine.")
         return found

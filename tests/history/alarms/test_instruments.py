@@ -12,7 +12,7 @@ from elastogeo.changes import ALARM, STEADY
 from elastogeo.history.alarms import instruments
 from elastogeo.history.alarms.acts import close
 from elastogeo.history.alarms.assessing import assess
-from elastogeo.history.alarms.open_ones import standing
+from elastogeo.history.alarms.open_ones import standing, unknown
 from elastogeo.history.alarms.states import fleet
 from elastogeo.history.store import Store, read
 from elastogeo.history.store.schema import series_state
@@ -89,6 +89,7 @@ def test_three_machines_that_move_alike_are_one_alarm_on_the_instrument(shop: Sh
     with read(shop.store) as connection:
         found = standing(connection, shop.clock.time).alarms
         rows = fleet(connection, shop.clock.time).machines
+        assert unknown(connection) == 1, "one to acknowledge, not four"
     assert [(row.instrument or row.machine, row.state) for row in found] == [
         ("LB-1", "open"),
         ("C50 no. 0", "held"),

@@ -28,7 +28,7 @@ SIZES = {"stiffness X": 16_100.0}
 def test_every_case_says_its_answer_and_makes_a_document(name, capsys):
     verdict = CASES[name]()
     view = view_of(verdict)
-    document = json.loads(json.dumps(view.document, allow_nan=False))
+    document = json.loads(json.dumps(dict(view.document), allow_nan=False))
     assert document["schema"] == "elastogeo.change/1"
     assert document["state"] == verdict.state
     assert document["sentence"] == view.sentence

@@ -28,7 +28,7 @@ from tests.report.changes.fleet_cases import (
 @pytest.mark.parametrize("name", [*FLEETS, *MACHINES])
 def test_every_case_has_a_page_and_a_document_that_say_the_same(name):
     view = view_of({**FLEETS, **MACHINES}[name]())
-    document = json.loads(json.dumps(view.document, allow_nan=False))
+    document = json.loads(json.dumps(dict(view.document), allow_nan=False))
     page = html_page(view)
     assert document["schema"] in ("elastogeo.fleet/1", "elastogeo.machine/1")
     assert view.sentence.replace("'", "&#39;") in page

@@ -11,7 +11,7 @@ from sqlalchemy import Connection, select
 from elastogeo.changes import MachineRow, due_after, due_on
 from elastogeo.changes.alarms import ACKNOWLEDGED, CLOSED, HELD, OPEN, AlarmList, AlarmRow, FailedRow, OverdueRow
 from elastogeo.history.alarms.addresses import shown
-from elastogeo.history.alarms.life import is_acknowledged, recorded
+from elastogeo.history.alarms.life import Step, is_acknowledged, is_held, recorded
 from elastogeo.history.alarms.outbox import GIVEN_UP, NEWER
 from elastogeo.history.alarms.rows import Kept, alarms, open_alarms
 from elastogeo.history.alarms.silences import silences, silent_until
@@ -41,8 +41,13 @@ def standing(connection: Connection, at: datetime) -> AlarmList:
 
 
 def unknown(connection: Connection) -> int:
-    """How many open alarms nobody has acknowledged, but for those that are held back."""
-    return sum(not kept.is_held and not is_acknowledged(kept.steps) for kept in open_alarms(connection))
+    """How many open alarms nobody has acknowledged, but for those that are held back; every page asks: states alone."""
+    closed = select(alarm_step.c.alarm).where(alarm_step.c.state.in_(CLOSED))
+    asked = select(alarm_step.c.alarm, alarm_step.c.state).where(alarm_step.c.alarm.not_in(closed))
+    steps: dict[int, list[Step]] = {}
+    for row in connection.execute(asked.order_by(alarm_step.c.id)):
+        steps.setdefault(row.alarm, []).append(Step(row.state))
+    return sum(not is_held(taken) and not is_acknowledged(taken) for taken in steps.values())
 
 
 def lately(connection: Connection, at: datetime, closed: timedelta) -> AlarmList:

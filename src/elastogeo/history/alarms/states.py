@@ -9,7 +9,7 @@ from math import nan
 from typing import Any
 
 import numpy as np
-from sqlalchemy import Connection, insert, select, update
+from sqlalchemy import Connection, Row, insert, select, update
 
 from elastogeo.changes import (
     ALARM,
@@ -116,10 +116,7 @@ def state_rows(connection: Connection, of: int | None = None) -> list[MachineRow
         .order_by(machine.c.name, series.c.id)
     )
     rows = connection.execute(asked if of is None else asked.where(machine.c.id == of))
-    return [
-        replace(_machine_row(row.name, row.place, row.of, row.verdict), model=row.kind, key=row.id, series_key=row.series)
-        for row in rows
-    ]
+    return [_machine_row(row) for row in rows]
 
 
 def _moves(connection: Connection, rows: Iterable[MachineRow]) -> tuple[InstrumentMove, ...]:
@@ -138,12 +135,22 @@ def _moves(connection: Connection, rows: Iterable[MachineRow]) -> tuple[Instrume
     return tuple(found)
 
 
-def _machine_row(name: str, place: str, of: str | None, kept: Mapping[str, Any] | None) -> MachineRow:
+_NO_TEST = MachineRow("", "", "", NO_BASELINE, None, "", "", "", nan, nan, (nan, nan), None, (), (), None, None, 0.0)
+_UNKNOWN = _NO_TEST.document()
+
+
+def _machine_row(row: Row[Any]) -> MachineRow:
     """A series of a machine as a row; one that was never assessed, or a machine without any, has no baseline."""
-    if kept is None:
-        unknown = (nan, nan, (nan, nan))
-        return MachineRow(name, place, of or "", NO_BASELINE, None, "", "", "", *unknown, None, (), (), None, None, 0.0)
-    return replace(MachineRow.of_document(dict(kept["row"])), machine=name, place=place, series=of or "")
+    """A series of a machine as a row; one that was never assessed, or a machine without any, has no baseline."""
+    named = {
+        "machine": row.name,
+        "place": row.place,
+        "series": row.of or "",
+        "model": row.kind,
+        "key": row.id,
+        "series_key": row.series,
+    }
+    return MachineRow.of_document({**(_UNKNOWN if row.verdict is None else row.verdict["row"]), **named})
 
 
 def _waits(verdict: ChangeVerdict, waiting: Waiting, before: Mapping[str, Any]) -> dict[str, Any] | None:

@@ -110,6 +110,11 @@ def machines(connection: Connection) -> tuple[KnownMachine, ...]:
     return tuple(_where(connection))
 
 
+def machine_keyed(connection: Connection, key: int) -> KnownMachine | None:
+    """The machine of a key; None if there is none."""
+    return next(iter(_where(connection, id=key)), None)
+
+
 def machine_named(connection: Connection, asked: str) -> KnownMachine:
     """The machine of a name; else of a serial number.
 
@@ -189,7 +194,7 @@ def _folded(name: str) -> str:
     return " ".join(unicodedata.normalize("NFKC", name).casefold().split())
 
 
-def _where(connection: Connection, **known: str) -> list[KnownMachine]:
+def _where(connection: Connection, **known: str | int) -> list[KnownMachine]:
     columns = (machine.c.id, machine.c.name, machine.c.kind, machine.c.serial, machine.c.place)
     asked = select(*columns).where(*(machine.c[name] == value for name, value in known.items())).order_by(machine.c.name)
     return [KnownMachine(*row) for row in connection.execute(asked)]

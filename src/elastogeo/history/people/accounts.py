@@ -19,12 +19,13 @@ ROLES = ("reader", "engineer", "administrator")
 """From the least to the most."""
 ADMINISTRATOR = "administrator"
 _LONGEST = 80
+_ANY = select(account.c.id).limit(1)
 
 
 def has_accounts(store: Store) -> bool:
     """Whether anybody has an account; whoever comes must log in then."""
     with read(store) as connection:
-        return connection.execute(select(account.c.id).limit(1)).first() is not None
+        return connection.execute(_ANY).first() is not None
 
 
 def check_reachable(store: Store) -> None:

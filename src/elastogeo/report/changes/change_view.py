@@ -34,6 +34,7 @@ from elastogeo.report.changes.words import (
 )
 from elastogeo.report.days import date_said, month_said, short_date, simulated_said
 from elastogeo.report.extra import needs_report_extra
+from elastogeo.report.later import Later, LaterRows
 from elastogeo.report.numbers import pretty, said_estimate, value_with_uncertainty
 from elastogeo.report.view import Badge, KeyValue, Picture, Section, View, said, views
 
@@ -44,7 +45,7 @@ if TYPE_CHECKING:
 @views(ChangeVerdict)
 def change_view(verdict: ChangeVerdict) -> View:
     """All that is shown of a verdict."""
-    return told(verdict, change_json(verdict))
+    return told(verdict, Later(lambda: change_json(verdict)))
 
 
 def told(verdict: ChangeVerdict, document: Mapping[str, Any]) -> View:
@@ -64,7 +65,7 @@ def told(verdict: ChangeVerdict, document: Mapping[str, Any]) -> View:
         picture=None if worst is None or not len(verdict.series) else trend_picture(verdict, worst),
         checks=said(verdict.verdict),
         document=document,
-        rows=document["indicators"],
+        rows=LaterRows(lambda: document["indicators"]),
         tables=(indicator_table(verdict),) if verdict.indicators else (),
         sections=tuple(sections(verdict, worst)),
     )

@@ -14,6 +14,7 @@ from elastogeo.report.changes.points import points_of
 from elastogeo.report.changes.words import MARKS, TONES, marked, predicate, title_of
 from elastogeo.report.days import days_said, iso_date, short_date
 from elastogeo.report.document import document, verdict_entries
+from elastogeo.report.later import Later
 from elastogeo.report.text import listed
 from elastogeo.report.view import Badge, Section, Table, View, views
 
@@ -21,7 +22,7 @@ from elastogeo.report.view import Badge, Section, Table, View, views
 @views(MachineState)
 def machine_state_view(machine: MachineState) -> View:
     """All that is shown of a machine: that of its worst series, with a table of all."""
-    whole = machine_json(machine)
+    whole = Later(lambda: machine_json(machine))
     if not machine.series:
         return View(
             kind="Machine",
@@ -50,8 +51,6 @@ def machine_state_view(machine: MachineState) -> View:
         subtitle=f"{count} series; {first}{series_said(machine.series[0])}" if several else view.subtitle,
         badge=_badge(machine, view),
         advice=(*view.advice, *late) if several else view.advice,
-        document=whole,
-        rows=whole["indicators"],
         tables=(table, *view.tables) if several else view.tables,
         sections=(Section("Series", tables=(table,)), *view.sections) if several else view.sections,
     )

@@ -41,7 +41,7 @@ def save_report(view: View, folder: str | Path) -> Path:
     turned = scene_page(view)
     written = {
         **{f"{name}.svg": data for name, data in figures.items()},
-        "report.json": json.dumps(view.document, indent=2, allow_nan=False, ensure_ascii=False).encode(),
+        "report.json": json.dumps(dict(view.document), indent=2, allow_nan=False, ensure_ascii=False).encode(),
         "report.pdf": pdf_page(view, figures),
         "report.html": html_page(view, figures, scene_written=turned is not None).encode(),
     }

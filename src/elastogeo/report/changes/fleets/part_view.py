@@ -11,6 +11,7 @@ from elastogeo.report.changes.fleets.document import fleet_json
 from elastogeo.report.changes.fleets.rows import fleet_table
 from elastogeo.report.changes.fleets.view import MEANINGS, answered
 from elastogeo.report.changes.words import MARKS, TONES, title_of
+from elastogeo.report.later import Later
 from elastogeo.report.view import Table, View, views
 
 
@@ -18,7 +19,7 @@ from elastogeo.report.view import Table, View, views
 def fleet_part_view(part: FleetPart) -> View:
     """All that is shown of it: the answer is that of the whole fleet, the table and the document are of what fits."""
     asked = {"hall": part.place, "model": part.model, "state": part.state}
-    document = fleet_json(part.fleet, part.machines, asked)
+    document = Later(lambda: fleet_json(part.fleet, part.machines, asked))
     view = answered(part.fleet, document, fleet_table(part.fleet, part.machines, part.first))
     return replace(view, tables=(*view.tables, *_facets(part)), sections=())
 

@@ -10,6 +10,7 @@ from elastogeo.report.changes.fleets.document import fleet_json
 from elastogeo.report.changes.fleets.rows import fleet_table, move_said, move_table, predicate_of
 from elastogeo.report.changes.words import MARKS, TONES, title_of
 from elastogeo.report.days import date_said, simulated_said
+from elastogeo.report.later import Later, LaterRows
 from elastogeo.report.text import listed
 from elastogeo.report.view import Badge, KeyValue, Section, Table, View, views
 
@@ -27,7 +28,8 @@ MEANINGS = {
 @views(FleetState)
 def fleet_view(fleet: FleetState) -> View:
     """All that is shown of a fleet."""
-    return answered(fleet, fleet_json(fleet, fleet.machines), fleet_table(fleet, fleet.machines))
+    document = Later(lambda: fleet_json(fleet, fleet.machines))
+    return answered(fleet, document, fleet_table(fleet, fleet.machines))
 
 
 def answered(fleet: FleetState, document: Mapping[str, Any], table: Table) -> View:
@@ -47,7 +49,7 @@ def answered(fleet: FleetState, document: Mapping[str, Any], table: Table) -> Vi
         checks=(),
         alert=tuple(map(move_said, fleet.instruments)),
         document=document,
-        rows=document["rows"],
+        rows=LaterRows(lambda: document["rows"]),
         tables=tables,
         sections=(Section("Machines", tables=tables),) if tables else (),
     )

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from math import inf
+from typing import Any
 
-from elastogeo.changes import Trend
+from elastogeo.changes import ChangeVerdict, IndicatorState, Trend
 from elastogeo.report.changes.answers import machine_of, series_said, worst_of
 from elastogeo.report.changes.change_view import trend_picture
 from elastogeo.report.changes.document import chart_entries
@@ -13,6 +14,7 @@ from elastogeo.report.changes.rows import test_table
 from elastogeo.report.changes.words import MARKS, TONES, title_of
 from elastogeo.report.days import simulated_said
 from elastogeo.report.document import document
+from elastogeo.report.later import Later, LaterRows
 from elastogeo.report.view import Badge, View, views
 
 
@@ -21,10 +23,7 @@ def trend_view(trend: Trend) -> View:
     """All that is shown of one indicator."""
     verdict = trend.verdict
     one = verdict[trend.indicator] if trend.indicator else worst_of(verdict)
-    entries = {} if one is None else chart_entries(verdict, one)
-    whole = document(
-        "elastogeo.trend/1", {"machine": machine_of(verdict), "series": series_said(verdict), "chart": entries or None}
-    )
+    whole = Later(lambda: _document(verdict, one))
     return View(
         kind="Trend",
         title="No indicator" if one is None else title_of(one.name),
@@ -37,9 +36,15 @@ def trend_view(trend: Trend) -> View:
         picture=None if one is None or not len(verdict.series) else trend_picture(verdict, one, since=_since(trend)),
         checks=(),
         document=whole,
-        rows=whole["chart"]["points"] if whole["chart"] else (),
+        rows=LaterRows(lambda: whole["chart"]["points"] if whole["chart"] else ()),
         tables=() if one is None else (test_table(verdict, one, trend.first),),
     )
+
+
+def _document(verdict: ChangeVerdict, one: IndicatorState | None) -> dict[str, Any]:
+    chart = None if one is None else chart_entries(verdict, one)
+    entries = {"machine": machine_of(verdict), "series": series_said(verdict), "chart": chart or None}
+    return document("elastogeo.trend/1", entries)
 
 
 def _since(trend: Trend) -> float:
