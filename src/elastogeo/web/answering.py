@@ -92,11 +92,16 @@ def json_response(document: Mapping[str, Any], status: int = 200, headers: Mappi
     return Response(text, status, dict(headers or {}), media_type="application/json")
 
 
+def in_ascii(address: str) -> str:
+    """An address as a header holds it: what is no plain letter is encoded, what is encoded already stays."""
+    return quote(address, safe="/?#[]@!$&'()*+,;=:%~")
+
+
 def gone_on(done: Done, asked: Asked) -> Response:
     """What follows an act: the next page, or a document for a program."""
     if "application/json" in asked.request.headers.get("accept", ""):
         return json_response({"done": done.said, "at": asked.url(done.to), **done.document})
-    answer = Response(status_code=303, headers={"Location": asked.url(done.to)})
+    answer = Response(status_code=303, headers={"Location": in_ascii(asked.url(done.to))})
     if done.said:
         secure = asked.settings.behind_https
         answer.set_cookie(

@@ -14,12 +14,12 @@ from starlette.exceptions import HTTPException
 from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp
 
-from elastogeo.errors import ElastogeoError
+from elastogeo.errors import ElastogeoError, StoreError
 from elastogeo.history import Store
 from elastogeo.version import VERSION
 from elastogeo.web.answering import json_response
 from elastogeo.web.asking import Asked, NotFound, Refused, asked_of
-from elastogeo.web.guard import guarded
+from elastogeo.web.guard import UNREADABLE, guarded
 from elastogeo.web.pages import Pages
 from elastogeo.web.settings import Settings
 from elastogeo.web.templating import STATIC, page
@@ -41,7 +41,14 @@ def application(settings: Settings, store: Store) -> ASGIApp:
     -------
     ASGI application
     """
-    app = FastAPI(title="elastogeo", version=VERSION, docs_url=None, redoc_url=None, openapi_url="/openapi.json")
+    app = FastAPI(
+        title="elastogeo",
+        version=VERSION,
+        docs_url=None,
+        redoc_url=None,
+        openapi_url="/openapi.json",
+        redirect_slashes=False,
+    )
     app.state.settings, app.state.store = settings, store
     for pages in every():
         app.include_router(pages)
@@ -69,8 +76,12 @@ def every() -> Iterator[Pages]:
 
 
 def _refused(request: Request, error: Exception) -> Response:
+    asked = asked_of(request)
+    if isinstance(error, StoreError):
+        LOG.warning("%s", error)  # it names places of the server: not for who has not logged in
+        return told(asked, 503, str(error) if asked.visitor.is_known else UNREADABLE)
     status = 404 if isinstance(error, NotFound) else 403 if isinstance(error, Refused) else 400
-    return told(asked_of(request), status, str(error))
+    return told(asked, status, str(error))
 
 
 def _misasked(request: Request, error: Exception) -> Response:

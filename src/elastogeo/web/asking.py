@@ -136,9 +136,13 @@ class Asked:
 
     def came_from(self) -> str:
         """The page from which this was asked, if it is one of ours; else the fleet."""
-        asked, said = self.request.url, urlsplit(self.request.headers.get("referer", ""))
-        ours = said.netloc == self.request.headers.get("host", asked.netloc) and said.path.startswith(self.url("/"))
+        try:
+            said = urlsplit(self.request.headers.get("referer", ""))
+        except ValueError:
+            return self.url("/")
+        ours = said.netloc == self.request.headers.get("host") and said.path.startswith(self.url("/"))
         path = f"/{said.path.lstrip('/')}"
+        ours = ours and "\\" not in path
         return (f"{path}?{said.query}" if said.query else path) if ours else self.url("/")
 
     def machine(self, key: int) -> KnownMachine:
@@ -162,6 +166,18 @@ class Asked:
         """
         if not self.visitor.may(role):
             raise Refused(f"this needs the role {role}; {self.visitor.name} is {self.visitor.role}: ask an administrator")
+
+    async def still_needs(self, role: str) -> None:
+        """Refuse who may not do this any more: the session or the token has ended, or the role is another one, while much
+        was sent.
+
+        Raises
+        ------
+        Refused
+        """
+        now: Visitor = await self.request.state.still()
+        if not now.may(role):
+            raise Refused("your account may not do this any more; nothing was kept of what was sent")
 
 
 def asked_of(request: Request) -> Asked:

@@ -49,6 +49,8 @@ from typing import Any, TypeVar
 
 from fastapi import APIRouter, Request, Response
 from fastapi.routing import APIRoute
+from starlette.routing import Match
+from starlette.types import Scope
 
 from elastogeo.web.answering import CSV, HTML, JSON, Done, Shown, gone_on, rendered
 from elastogeo.web.asking import READER, Asked, NotFound, asked_of
@@ -62,6 +64,13 @@ MEDIA = {HTML: "text/html", JSON: "application/json", CSV: "text/csv"}
 class Page(APIRoute):
     """The address of a page: who may not see it is refused before a byte of what was sent is read."""
 
+    def matches(self, scope: Scope) -> tuple[Match, Scope]:
+        """Whether an address is this one; one with a number of thousands of digits is none."""
+        try:
+            return super().matches(scope)
+        except ValueError:
+            return Match.NONE, {}
+
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         """What answers a request."""
         answer, role = super().get_route_handler(), (self.openapi_extra or {})["x-role"]
@@ -69,11 +78,17 @@ class Page(APIRoute):
         async def handler(request: Request) -> Response:
             asked_of(request).needs(role)
             for name, said in (*request.path_params.items(), *request.query_params.items()):
-                if str(said).lstrip("-").isdecimal() and abs(int(said)) >= LARGEST:
+                if is_too_large(str(said)):
                     raise NotFound(f"There is nothing of this number: {name}.")
             return await answer(request)
 
         return handler
+
+
+def is_too_large(said: str) -> bool:
+    """Whether this is a whole number that no key reaches; of thousands of digits Python makes none."""
+    digits = said.lstrip("-").lstrip("0")
+    return digits.isdecimal() and (len(digits) > len(str(LARGEST)) or int(digits) >= LARGEST)
 
 
 class Pages(APIRouter):

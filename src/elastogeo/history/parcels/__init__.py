@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from elastogeo.discovery import first_use
 
 if TYPE_CHECKING:
-    from elastogeo.history.parcels.staging import LARGEST, Arriving, arriving, sweep_parcels, too_large
+    from elastogeo.history.parcels.staging import LARGEST, MOST_FILES, Arriving, arriving, sweep_parcels, too_large
 
-__all__ = ["LARGEST", "Arriving", "arriving", "sweep_parcels", "too_large"]
+__all__ = ["LARGEST", "MOST_FILES", "Arriving", "arriving", "sweep_parcels", "too_large"]
 
-__getattr__ = first_use(__name__, {"staging": "Arriving LARGEST arriving sweep_parcels too_large"})
+__getattr__ = first_use(__name__, {"staging": "Arriving LARGEST MOST_FILES arriving sweep_parcels too_large"})

@@ -28,8 +28,16 @@ from elastogeo.history.store.schema import job
 LARGEST = 100_000_000
 """Bytes of a parcel, counted as they come."""
 MOST_FILES = 1000
+MOST_COMING = 8
+"""Parcels that come in at once."""
+MOST_KEPT = 5_000_000_000
+"""Bytes that all parcels may take, what was laid out of them too, until they are imported or swept."""
+ROOM = 2 * LARGEST
+"""Bytes that must be free on the disk, which may be that of the database."""
 _FOLDER, _PART, _NAMES, _SENT = "parcels", ".part", "names.json", "sent"
 _NAME = re.compile(r"[0-9a-f]{32}")
+_SILENT = 60.0
+"""Seconds without a byte after which nobody waits for a parcel; who sends is cut off far earlier."""
 _BROKEN_OFF = 3600.0
 """Seconds without a byte after which a parcel does not come any more."""
 _OLD = 86_400.0
@@ -144,9 +152,12 @@ def arriving(files: Files) -> Arriving:
 
     Raises
     ------
+    InputError
+        If too many come in, or too much of what came waits.
     StoreError
         If there is no place for it.
     """
+    _check_room(files)
     name = secrets.token_hex(16)
     folder = files.folder / _FOLDER / f"{name}{_PART}"
     try:
@@ -154,6 +165,30 @@ def arriving(files: Files) -> Arriving:
     except OSError as error:
         raise _cannot(error, folder) from error
     return Arriving(name, folder)
+
+
+def _check_room(files: Files) -> None:
+    """Refuse another parcel where those that are there take what others need."""
+    known = list(_all(files))
+    if sum(folder.suffix == _PART and idle < _SILENT for folder, idle in known) >= MOST_COMING:
+        raise InputError(f"{MOST_COMING} uploads are coming in already; send it again when they are done")
+    if sum(_size(folder) for folder, _ in known) > MOST_KEPT:
+        raise InputError(
+            f"more than {MOST_KEPT // 10**9} GB that were sent wait to be imported; import them, or send it again tomorrow: "
+            "what nobody imports is kept for a day"
+        )
+    if files.folder.is_dir() and shutil.disk_usage(files.folder).free < ROOM:
+        raise StoreError(f"{files.folder}: less than {ROOM // 10**6} MB are free on its disk; free some, then send it again")
+
+
+def _size(folder: Path) -> int:
+    """Bytes of a parcel, as far as they can be counted while others work on it."""
+    found = 0
+    for place, _, names in os.walk(folder):
+        for name in names:
+            with suppress(OSError):
+                found += os.lstat(os.path.join(place, name)).st_size
+    return found
 
 
 def parcel(files: Files, name: str) -> Path:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from sqlalchemy.exc import DBAPIError, IntegrityError
+from sqlalchemy.exc import TimeoutError as NoConnection
 
 from elastogeo.errors import StoreError
 
@@ -40,6 +41,8 @@ def in_words(url: str, writes: bool) -> Iterator[None]:
         yield
     except IntegrityError:
         raise
+    except NoConnection as error:
+        raise StoreError(f"{url}: too many ask it at once; wait, then try again") from error
     except UnicodeEncodeError as error:
         raise StoreError(
             f"{str(error.object)[:80]!r} holds bytes that are no text in UTF-8; rename it, then repeat"

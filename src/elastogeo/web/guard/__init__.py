@@ -10,6 +10,6 @@ from elastogeo.web.guard.connections import Connection
 from elastogeo.web.guard.cookies import session_cookie
 from elastogeo.web.guard.doors import guarded
 from elastogeo.web.guard.limits import Limits
-from elastogeo.web.guard.visitors import check_reach
+from elastogeo.web.guard.visitors import UNREADABLE, check_reach
 
-__all__ = ["Connection", "Limits", "check_reach", "guarded", "session_cookie"]
+__all__ = ["UNREADABLE", "Connection", "Limits", "check_reach", "guarded", "session_cookie"]

@@ -46,6 +46,10 @@ def name_of(authority: str) -> str:
     name, colon, port = said.rpartition(":")
     if not colon or said.endswith("]"):
         name, port = said, "0"
-    if not port.isdigit() or (":" in name and not name.startswith("[")) or set(name) & set("@/\\?#, \t"):
+    if (
+        not (port.isascii() and port.isdigit())
+        or (":" in name and not name.startswith("["))
+        or set(name) & set("@/\\?#, \t")
+    ):
         return ""
     return name.removesuffix(".")

@@ -17,7 +17,8 @@ from elastogeo.web.settings import Settings
 
 SAFE = ("GET", "HEAD", "OPTIONS", "TRACE")
 PORTS = {"http": 80, "https": 443}
-EMBEDDED = ("object", "embed", "iframe", "frame")
+ITSELF = (None, "", "document")
+"""What a page is fetched for that is shown by itself, and in no frame."""
 
 
 def origins(app: ASGIApp, settings: Settings) -> ASGIApp:
@@ -40,7 +41,7 @@ def is_ours(scope: Scope, settings: Settings) -> bool:
     site, origin = header(scope, "sec-fetch-site"), header(scope, "origin")
     cookie = session_of(scope, settings)
     if scope["method"] in SAFE:
-        followed = header(scope, "sec-fetch-mode") == "navigate" and header(scope, "sec-fetch-dest") not in EMBEDDED
+        followed = header(scope, "sec-fetch-mode") == "navigate" and header(scope, "sec-fetch-dest") in ITSELF
         return site in (None, "same-origin", "none") or followed
     if header(scope, "authorization") is not None and not cookie:
         return True  # no page of another site can add that header
@@ -67,4 +68,6 @@ def is_own_origin(origin: str, host: str, settings: Settings) -> bool:
 
 def _parted(authority: str, scheme: str) -> tuple[str, int]:
     port = authority.rpartition(":")[2]
-    return name_of(authority), int(port) if port.isdigit() and not authority.endswith("]") else PORTS[scheme]
+    return name_of(authority), int(port) if port.isascii() and port.isdigit() and not authority.endswith("]") else PORTS[
+        scheme
+    ]

@@ -22,6 +22,7 @@ from elastogeo.web.settings import Settings
 
 OPEN = ("/login", "/health")
 """What anybody may ask, beside our files."""
+UNREADABLE = "The history cannot be read just now; try again."
 _LONGEST = 200
 """Characters of a token or a session: what is longer is none."""
 
@@ -46,9 +47,9 @@ def visitors(app: ASGIApp, settings: Settings, store: Store) -> ASGIApp:
         try:
             visitor = await door.visitor(scope)
         except StoreError:
-            await refuse(scope, receive, send, 503, "The history cannot be read just now; try again.", settings.prefix)
+            await refuse(scope, receive, send, 503, UNREADABLE, settings.prefix)
             return
-        scope.setdefault("state", {})["visitor"] = visitor
+        scope.setdefault("state", {}).update(visitor=visitor, still=lambda: door.visitor(scope))
         if visitor.is_known or scope["path"] in OPEN or scope["path"].startswith("/static/"):
             await app(scope, receive, send)
         elif header(scope, "authorization") is not None:

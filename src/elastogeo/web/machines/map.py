@@ -73,7 +73,7 @@ def _basis(said: str) -> tuple[str, int]:
     kind, _, number = said.partition(":")
     if not said:
         return "", 0
-    if kind not in ("campaign", "test") or not number.isdigit():
+    if kind not in ("campaign", "test") or not (number.isdecimal() and number.isascii() and len(number) < 16):
         raise InputError("a map rests on a campaign or a test of the machine; choose one that is listed")
     return kind, int(number)
 

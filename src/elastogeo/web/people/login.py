@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import logging
+from ipaddress import IPv6Address, ip_address, ip_network
 from typing import Annotated
-from urllib.parse import urlsplit
+from urllib.parse import unquote
 
 from fastapi import Form, Request, Response
 
 from elastogeo.history.people import ABSOLUTE, end_session, log_in
+from elastogeo.web.answering import in_ascii
 from elastogeo.web.asking import ANYBODY, READER, Ask, Asked
 from elastogeo.web.guard import session_cookie
 from elastogeo.web.pages import Pages
@@ -36,7 +38,7 @@ def login(
     to: Annotated[str, Form(max_length=2000)] = "/",
 ) -> Response:
     """Begin a session. Which of name and password was wrong is not said, nor kept in a log."""
-    address = asked.request.client.host if asked.request.client else ""
+    address = address_of(asked.request)
     try:
         secret = tried(asked, name, password)
     except TooOften as error:
@@ -48,7 +50,7 @@ def login(
     cookie = session_cookie(asked.settings)
     if before := asked.request.cookies.get(cookie["key"]):
         end_session(asked.history.store, before)
-    answer = Response(status_code=303, headers={"Location": f"{asked.settings.prefix}{_ours(to)}"})
+    answer = Response(status_code=303, headers={"Location": in_ascii(asked.url(_ours(to)))})
     answer.set_cookie(value=secret, max_age=int(ABSOLUTE.total_seconds()), **cookie)
     return answer
 
@@ -71,14 +73,27 @@ def tried(asked: Asked, name: str, password: str) -> str | None:
     ------
     TooOften
     """
-    throttle = throttle_of(asked.request)
-    address = asked.request.client.host if asked.request.client else ""
+    throttle, address = throttle_of(asked.request), address_of(asked.request)
     throttle.check(name, address)
     with throttle.comparing:
         secret = log_in(asked.history.store, name, password)
     if secret is not None:
         throttle.succeeded(name, address)
     return secret
+
+
+def address_of(request: Request) -> str:
+    """From where one comes, as far as one can be told from a neighbour: IPv6 gives a house 2^64 addresses.
+
+    Behind a proxy it is what the proxy says, which nobody else may choose; what is no address is none.
+    """
+    try:
+        found = ip_address(request.client.host if request.client else "")
+    except ValueError:
+        return "an unknown address"
+    if isinstance(found, IPv6Address):
+        return str(found.ipv4_mapped or ip_network((int(found), 64), strict=False))
+    return str(found)
 
 
 def throttle_of(request: Request) -> Throttle:
@@ -98,6 +113,6 @@ def _form(asked: Asked, status: int, error: str, to: str, headers: dict[str, str
 
 def _ours(to: str) -> str:
     """Where to go on: an address of ours, whatever was asked."""
-    said = urlsplit(to)
-    safe = to.startswith("/") and not to.startswith("//") and "\\" not in to and to.isprintable()
-    return to if safe and not said.scheme and not said.netloc and not to.startswith("/log") else "/"
+    safe = to.startswith("/") and not to.startswith(("//", "/log")) and "\\" not in to and to.isprintable()
+    parts = unquote(to.partition("?")[0].partition("#")[0]).removesuffix("/").split("/")[1:]
+    return to if safe and not {"", ".", ".."} & set(parts) else "/"

@@ -6,11 +6,13 @@ from elastogeo.changes import KeptJob
 from elastogeo.errors import InputError
 from elastogeo.report import view_of
 from elastogeo.web.answering import Done, Shown
-from elastogeo.web.asking import ENGINEER, Ask, Asked, NotFound
+from elastogeo.web.asking import ADMINISTRATOR, ENGINEER, Ask, Asked, NotFound
 from elastogeo.web.pages import Pages
 from elastogeo.web.work.upload import unplaced
 
 pages = Pages()
+ADMINISTRATORS = ("back up", "verify")
+"""Jobs that only an administrator asks for, ends and begins again."""
 
 
 @pages.shows("/jobs", fresh=True)
@@ -40,7 +42,7 @@ def job(asked: Ask, key: int) -> Shown:
 @pages.acts("/jobs/{key:int}/cancel", role=ENGINEER)
 def cancel(asked: Ask, key: int) -> Done:
     """End a job: one that waits never begins, one that runs ends after its step."""
-    _found(asked, key)
+    _mine(asked, key)
     asked.history.cancel_job(key)
     return Done(f"/jobs/{key}", "It ends after its step.")
 
@@ -48,9 +50,15 @@ def cancel(asked: Ask, key: int) -> Done:
 @pages.acts("/jobs/{key:int}/again", role=ENGINEER)
 def again(asked: Ask, key: int) -> Done:
     """Let a job that failed or was cancelled wait again."""
-    _found(asked, key)
+    _mine(asked, key)
     asked.history.try_job_again(key)
     return Done(f"/jobs/{key}", "It waits again.")
+
+
+def _mine(asked: Asked, key: int) -> None:
+    """Refuse who may not ask for such a job."""
+    if _found(asked, key).kind in ADMINISTRATORS:
+        asked.needs(ADMINISTRATOR)
 
 
 def _found(asked: Asked, key: int) -> KeptJob:

@@ -115,7 +115,7 @@ def ask_for_ways(
     instrument: Annotated[list[str], Form(max_length=20)],
     one: Annotated[str, Form(max_length=60)] = "",
     other: Annotated[str, Form(max_length=60)] = "",
-    percent: Annotated[float, Form()] = 5.0,
+    percent: Annotated[float, Form(gt=0, le=100)] = 5.0,
 ) -> Done:
     """Ask for ways to reach a goal: `stiffness`, `workspace`, `parameters`, `between` (two components), or a suggestion."""
     found = asked.machine(key)
@@ -134,11 +134,11 @@ def ask_for_ways(
 def choose(
     asked: Ask,
     key: int,
-    job: Annotated[int, Form(ge=1)],
-    way: Annotated[int, Form(ge=0)],
+    job: Annotated[int, Form(ge=1, le=2**53)],
+    way: Annotated[int, Form(ge=0, le=10_000)],
     name: Annotated[str, Form(max_length=200)],
     due: Annotated[str, Form(max_length=40)] = "",
-    grace: Annotated[float, Form(ge=0)] = 7.0,
+    grace: Annotated[float, Form(ge=0, le=36_500)] = 7.0,
 ) -> Done:
     """Keep one of the ways as a plan of the machine."""
     if _job(asked, key, job) is None:

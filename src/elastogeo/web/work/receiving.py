@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable
 
 from fastapi.concurrency import run_in_threadpool
 from python_multipart.exceptions import FormParserError
@@ -11,18 +11,22 @@ from starlette.datastructures import Headers
 
 from elastogeo.errors import InputError
 from elastogeo.history import Store
-from elastogeo.history.parcels import LARGEST, Arriving, arriving, too_large
+from elastogeo.history.parcels import LARGEST, MOST_FILES, Arriving, arriving, too_large
 
 _AT_ONCE = 2**18
 """Bytes that are gathered before they are written."""
 _FORM = 2**20
 """Bytes that a form may hold beside its files."""
+_MOST_PARTS = MOST_FILES + 100
+"""Files and other fields of a form: each costs time, however small."""
 _LONGEST = 8192
 """Bytes of a heading within a form."""
 _BROKE_OFF = "what was sent broke off; send it again"
 
 
-async def received(store: Store, blocks: AsyncIterator[bytes], headers: Headers, name: str) -> str:
+async def received(
+    store: Store, blocks: AsyncIterator[bytes], headers: Headers, name: str, still: Callable[[], Awaitable[None]]
+) -> str:
     """Take an upload.
 
     Parameters
@@ -34,6 +38,8 @@ async def received(store: Store, blocks: AsyncIterator[bytes], headers: Headers,
         Its content type is `multipart/form-data` of a form, or anything else for one file as it is.
     name : str
         How the sender calls that one file.
+    still : callable
+        Refuses a sender who, when all has come, may not send any more.
 
     Returns
     -------
@@ -62,6 +68,7 @@ async def received(store: Store, blocks: AsyncIterator[bytes], headers: Headers,
                 waiting.clear()
         await run_in_threadpool(take, bytes(waiting))
         await run_in_threadpool(end)
+        await still()
         return await run_in_threadpool(parcel.keep)
     except BaseException:
         parcel.drop()
@@ -87,6 +94,7 @@ class _Form:
         self._parcel = parcel
         self._field, self._value, self._disposition = b"", b"", b""
         self._is_file = self._whole = False
+        self._parts = 0
         self._parser = MultipartParser(
             boundary,
             {
@@ -113,6 +121,9 @@ class _Form:
             raise InputError(_BROKE_OFF)
 
     def _begin(self) -> None:
+        self._parts += 1
+        if self._parts > _MOST_PARTS:
+            raise InputError("what was sent has too many parts; send the tests in several parts")
         self._field, self._value, self._disposition, self._is_file = b"", b"", b"", False
 
     def _on_field(self, data: bytes, start: int, end: int) -> None:

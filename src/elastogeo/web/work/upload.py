@@ -34,7 +34,9 @@ async def send(asked: Ask, name: str = "") -> Response:
     """Send files: a form (`multipart/form-data`), or one file as it is, its name in the query. What they are is found."""
     request = asked.request
     try:
-        parcel = await received(asked.history.store, request.stream(), request.headers, name)
+        parcel = await received(
+            asked.history.store, request.stream(), request.headers, name, lambda: asked.still_needs(ENGINEER)
+        )
     except ClientDisconnect:
         return Response(status_code=400)  # nobody reads it
     job = asked.history.put_job("look", {"parcel": parcel})
