@@ -14,7 +14,8 @@ from tests.web.guard.addresses import Address, addresses, shut
 from tests.web.guard.conftest import HOST, NAME, PERSONS, Shop
 
 pytestmark = pytest.mark.usefixtures("nothing_written")
-OPEN = {("GET", "/login"), ("POST", "/login"), ("GET", "/health"), ("GET", "/static/plotly.min.js")}
+FILES = {("GET", "/static/plotly.min.js"), ("GET", "/favicon.ico")}
+OPEN = {("GET", "/login"), ("POST", "/login"), ("GET", "/health"), *FILES}
 
 
 def named(one: Address) -> str:

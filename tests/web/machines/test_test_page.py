@@ -123,6 +123,7 @@ def test_a_test_that_is_not_drawn_says_what_it_says_and_asks_for_the_rest_once(
     drawn = browser.get("/tests/2/drawn", headers=HTMX).text
     assert "every 1s" not in drawn
     assert "<html" not in drawn
+    assert '<span id="reports" hx-swap-oob="true"><a class="button" href="/tests/2/report.pdf"' in drawn
 
 
 def test_what_is_no_circle_shows_its_own_view(browser: TestClient, history: eg.History) -> None:

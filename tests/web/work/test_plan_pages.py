@@ -67,6 +67,7 @@ def test_a_goal_is_asked_for_and_a_way_is_kept(pages: TestClient, history: eg.Hi
     plans = pages.get("/plans").text
     assert plans.index("Drives &lt;1&gt;") < plans.index("the first")
     assert "overdue" in plans
+    assert f'<a href="{kept.headers["location"]}">' in plans
     assert [one["name"] for one in pages.get("/plans.json").json()["plans"]] == ["Drives <1>", "the first"]
     assert "Drives" not in pages.get("/plans?machine=2").text
     assert pages.post("/machines/2/plan/choose", data=chosen | {"name": "x"}, headers=ORIGIN).status_code == 404

@@ -1,4 +1,4 @@
-"""Uploads and the first run in a browser: chosen, dropped, refused, stopped; three clicks to a result."""
+"""Uploads in a browser: chosen, dropped, refused, stopped."""
 
 from __future__ import annotations
 
@@ -106,17 +106,3 @@ def test_an_upload_that_is_stopped_leaves_nothing(own: Site, screens: Any) -> No
                 break
             page.wait_for_timeout(50)
         assert parcels(history.store) == before
-
-
-def test_three_clicks_from_nothing_to_the_demo_fleet(tmp_path: Path, serve: Callable[..., Site], screens: Any) -> None:
-    database = tmp_path / "shop.db"
-    eg.History(database, create=True, who="A. Miller").close()
-    screen: Watched = screens(serve(database).url)
-    page = screen.page
-    screen.go("/")
-    page.get_by_role("link", name="Begin").click()
-    page.get_by_role("button", name="Try the demo fleet").click()
-    page.get_by_text("Huron KX8 no. 1").first.wait_for(timeout=WORKED)  # the fleet fills while one looks
-    page.get_by_role("link", name="Look at the fleet while it grows").click()
-    page.get_by_role("link", name="Huron KX8 no. 1").first.wait_for(timeout=WORKED)
-    assert "simulated" in page.locator("body").inner_text().lower()

@@ -122,6 +122,7 @@ def plans_view(result: KeptPlans) -> View:
         (str(plan.key), plan.machine, plan.name, listed(plan.tests), _minutes(plan), plan_standing(plan))
         for plan in result.plans
     )
+    keys = tuple(plan.key for plan in result.plans)
     return View(
         kind="Plans",
         title=result.store,
@@ -134,9 +135,7 @@ def plans_view(result: KeptPlans) -> View:
         checks=(),
         document=document("elastogeo.plans/1", {"now": iso_date(result.now), "plans": entries}),
         rows=entries,
-        tables=(Table(("number", "machine", "plan", "tests", "minutes", "state"), rows, words=(1, 2, 3, 5)),)
-        if rows
-        else (),
+        tables=(Table(_PLAN_HEADS, rows, words=(1, 2, 3, 5), name="plans", keys=keys),) if rows else (),
     )
 
 

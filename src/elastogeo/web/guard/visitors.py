@@ -20,7 +20,7 @@ from elastogeo.web.guard.cookies import session_of
 from elastogeo.web.guard.refusing import header, refuse, wants_document
 from elastogeo.web.settings import Settings
 
-OPEN = ("/login", "/health")
+OPEN = ("/login", "/health", "/favicon.ico")
 """What anybody may ask, beside our files."""
 UNREADABLE = "The history cannot be read just now; try again."
 _LONGEST = 200

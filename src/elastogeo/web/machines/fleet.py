@@ -15,6 +15,8 @@ from elastogeo.web.pages import Pages
 pages = Pages()
 
 ON_A_PAGE = 100
+SELDOM, OFTEN = 60, 5
+"""Seconds after which the page looks again: always, and while the demo fleet is made."""
 Facet = Annotated[str, Query(max_length=200)]
 
 
@@ -28,7 +30,9 @@ def fleet(
 ) -> Shown:
     """All machines, the worst first, or those of a hall, a model, a state; how many are in which state."""
     part = FleetPart(asked.history.fleet(), hall, model, state, ON_A_PAGE * (page - 1))
+    grows = any(not job.is_over for job in asked.history.jobs(last=1, kind="demo").jobs)
     context = {
+        "seconds": OFTEN if grows else SELDOM,
         "filters": {"hall": hall, "model": model, "state": state},
         "page": page,
         "pages": max(-(-len(part.machines) // ON_A_PAGE), 1),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 from fastapi import Form, Query, Response
@@ -203,10 +203,15 @@ def _section(found: Drawn | None, part: int) -> Section:
 
 
 def _report(asked: Asked, key: int) -> KeptView:
-    found = _drawn(asked, _kept(asked, key))
+    """What is drawn of a test, under the name of this very machine, with the date, the instrument and the operator."""
+    test = _kept(asked, key)
+    found = _drawn(asked, test)
     if found is None:
         raise NotFound("The report is not drawn yet; open the page of the test, wait until it is drawn, and come back.")
-    return found.kept
+    known, drawn = view_of(test), found.kept.view
+    said = {name for name, _ in known.head}
+    about = (*known.head, *(one for one in drawn.head if one[0] not in said))
+    return replace(found.kept, view=replace(drawn, subtitle=f"{known.subtitle}, {drawn.subtitle}", head=about))
 
 
 def _file(content: bytes, name: str, media: str) -> Response:

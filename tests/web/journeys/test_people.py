@@ -1,26 +1,35 @@
-"""In a browser, by the keyboard alone: log in, work, log out; what a reader does not get; a wrong password."""
+"""In a browser, by the keyboard alone: log in, work, log out; a wrong password; what a reader does not get; a token."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from elastogeo.history import History
-from tests.web.browsing import Site
+from tests.web.browsing import Site, serving
+from tests.web.conftest import copy_of
 from tests.web.keyboard import press, send, write
 
 PASSWORD = "a long enough password"
+POSTED = """async ([path, said]) => {
+  const body = new URLSearchParams(said);
+  return (await fetch(path, { method: "POST", body, headers: { Accept: "application/json" } })).status;
+}"""
 
 
-@pytest.fixture
-def closed_site(fleet: Path, serve: Any) -> Site:
+@pytest.fixture(scope="module")
+def closed_site(made_fleet: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
     """The fleet, where nobody comes in without an account."""
-    with History(fleet, who="A. Miller") as history:
+    folder = tmp_path_factory.mktemp("closed")
+    database = copy_of(made_fleet, folder / "fleet")
+    with History(database, who="A. Miller") as history:
         history.add_account("A. Miller", "administrator", PASSWORD)
         history.add_account("R. Eader", "reader", PASSWORD)
-    return serve(fleet, "--accounts")
+    with serving(database, folder / "serve.log", "--accounts") as site:
+        yield site
 
 
 def log_in(page: Any, name: str, password: str = PASSWORD) -> None:
@@ -48,15 +57,31 @@ def test_log_in_and_out(closed_site: Site, screens: Any) -> None:
     assert page.url.startswith(f"{closed_site.url}/login")
     screen.go("/")
     assert page.url.startswith(f"{closed_site.url}/login")
+    page.context.add_cookies([cookie])  # of somebody who kept it
+    screen.go("/")
+    assert page.url.startswith(f"{closed_site.url}/login")
 
 
-def test_a_reader_makes_no_accounts(closed_site: Site, screens: Any) -> None:
+def test_a_reader_looks_and_changes_nothing(closed_site: Site, screens: Any) -> None:
     screen = screens(closed_site.url)
+    page = screen.page
     screen.go("/login")
-    log_in(screen.page, "R. Eader")
+    log_in(page, "R. Eader")
+    for path in ("/", "/machines/1", "/tests/8", "/alarms", "/alarms/1", "/plans", "/plans/1", "/instruments"):
+        assert screen.go(path).status == 200
+        forms = page.locator("form[method=post]:not([action$='/theme']):not([action$='/logout'])")
+        assert forms.count() == 0, path
+        assert page.get_by_role("link", name="Upload").count() == 0, path
+    with History(closed_site.database) as history:
+        before = history.audit(last=1).rows[0].number
     screen.expected = (403,)
+    acts = {"/alarms/1/acknowledge": {"why": "x"}, "/tests/8/aside": {"why": "x"}, "/plans/1/done": {}, "/events": {}}
+    for path, said in acts.items():
+        assert page.evaluate(POSTED, [path, said]) == 403, path
     assert screen.go("/accounts").status == 403
-    assert "this needs the role administrator" in screen.page.locator("main").inner_text()
+    assert "this needs the role administrator" in page.locator("main").inner_text()
+    with History(closed_site.database) as history:
+        assert history.audit(last=1).rows[0].number == before
 
 
 def test_a_token_is_made_and_shown_once(closed_site: Site, screens: Any) -> None:
