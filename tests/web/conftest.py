@@ -106,9 +106,9 @@ def own_site(fleet: Path, serve: Serve) -> Site:
     return serve(fleet)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    """Chromium without a window."""
+    """Chromium without a window. It ends with its file: as long as it runs, so does a loop in which no other can begin."""
     program = chromium_or_skip()
     playwright = pytest.importorskip("playwright.sync_api", reason="the pages in a browser, for playwright is not there")
     with playwright.sync_playwright() as found:
