@@ -14,5 +14,5 @@ pages = Pages()
 @pages.gives("/favicon.ico", role=ANYBODY, media="image/svg+xml")
 def icon(asked: Ask) -> Response:  # noqa: ARG001
     """The icon of the pages."""
-    kept = {"Cache-Control": "public, max-age=86400"}
+    kept = {"Cache-Control": "private, max-age=86400"}
     return Response((STATIC / "icon.svg").read_bytes(), media_type="image/svg+xml", headers=kept)
