@@ -23,6 +23,14 @@ def test_it_is_made_once_and_only_when_it_is_read():
     assert made == [1]
 
 
+def test_an_entry_that_is_there_already_does_not_make_the_rest():
+    made = []
+    document = Later(lambda: made.append(1) or {"map": [1, 2], "section": "XY"}, {"section": "XY"})
+    assert document["section"] == "XY"
+    assert made == []
+    assert dict(document) == {"map": [1, 2], "section": "XY"}
+
+
 def test_what_is_shown_of_a_fleet_makes_no_document(monkeypatch):
     def fail(*_):
         raise AssertionError("the document was made though nobody read it")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any, overload
 
 Rows = Sequence[Mapping[str, Any]]
@@ -16,17 +17,19 @@ class Later(Mapping[str, Any]):
     ----------
     make : callable
         Makes it.
+    known : mapping
+        Entries of it that are there already, and need the rest not to be made.
     """
 
-    def __init__(self, make: Callable[[], Mapping[str, Any]]) -> None:
-        self._make = make
+    def __init__(self, make: Callable[[], Mapping[str, Any]], known: Mapping[str, Any] = MappingProxyType({})) -> None:
+        self._make, self._known = make, known
 
     @cached_property
     def _made(self) -> Mapping[str, Any]:
         return self._make()
 
     def __getitem__(self, key: str) -> Any:
-        return self._made[key]
+        return self._known[key] if key in self._known else self._made[key]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._made)

@@ -9,12 +9,23 @@ from elastogeo.discovery import first_use
 
 if TYPE_CHECKING:
     from elastogeo.history.jobs.rows import cancel_job, kept_job, kept_jobs, put_job
-    from elastogeo.history.jobs.running import Worker, stop_at_signals
+    from elastogeo.history.jobs.running import Worker, give_way, stop_at_signals
     from elastogeo.history.work import JobEnded, Work, job
 
-__all__ = ["JobEnded", "Work", "Worker", "cancel_job", "job", "kept_job", "kept_jobs", "put_job", "stop_at_signals"]
+__all__ = [
+    "JobEnded",
+    "Work",
+    "Worker",
+    "cancel_job",
+    "give_way",
+    "job",
+    "kept_job",
+    "kept_jobs",
+    "put_job",
+    "stop_at_signals",
+]
 
-_here = first_use(__name__, {"rows": "cancel_job kept_job kept_jobs put_job", "running": "Worker stop_at_signals"})
+_here = first_use(__name__, {"rows": "cancel_job kept_job kept_jobs put_job", "running": "Worker give_way stop_at_signals"})
 _above = first_use("elastogeo.history", {"work": "JobEnded Work job"})
 
 

@@ -99,7 +99,7 @@ def section_plot(section: MapSection, alternative: str) -> Plot:
 
 def colour(value: float, levels: list[float]) -> str:
     """The kind of a value: by how many levels lie below it."""
-    if not np.isfinite(value):
+    if not isfinite(value):
         return "untold"
     below = sum(level <= value for level in levels)
     return f"s{round(below * (COLOURS - 1) / max(len(levels), 1))}" if levels else f"s{COLOURS // 2}"
@@ -132,7 +132,7 @@ def _cells(section: MapSection, field: Array, levels: list[float], frame: Frame)
     x = [frame.across(value) for value in _edges(section.along[0])]
     y = [frame.up(value) for value in _edges(section.along[1])]
     for j in range(fine.shape[1]):
-        kinds = [colour(float(value), levels) for value in fine[:, j]]
+        kinds = [colour(value, levels) for value in fine[:, j].tolist()]
         first = 0
         for i in range(1, len(kinds) + 1):
             if i == len(kinds) or kinds[i] != kinds[first]:

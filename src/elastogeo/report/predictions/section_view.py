@@ -12,6 +12,7 @@ from elastogeo.prediction import ElementMap, Elements, MapSection, Spot, section
 from elastogeo.report.days import origin_said
 from elastogeo.report.document import UM, document, verdict_entries
 from elastogeo.report.extra import needs_report_extra
+from elastogeo.report.later import Later
 from elastogeo.report.numbers import pretty, significant, value_with_uncertainty, whole_percent
 from elastogeo.report.predictions.section_plot import frame_json, section_plot
 from elastogeo.report.text import listed
@@ -35,6 +36,7 @@ def section_view(section: MapSection) -> View:
     """All that is shown of a section."""
     found = section.map
     answer = _answer(section)
+    shown = document(MAP_SCHEMA, {"section": section_json(section), "verdict": verdict_entries(found.verdict)})
     return View(
         kind="Stiffness map",
         title=found.machine,
@@ -52,10 +54,7 @@ def section_view(section: MapSection) -> View:
             plain=lambda: section_plot(section, answer),
         ),
         checks=said(found.verdict),
-        document=document(
-            MAP_SCHEMA,
-            {**found.document(), "section": section_json(section), "verdict": verdict_entries(found.verdict)},
-        ),
+        document=Later(lambda: {**document(MAP_SCHEMA, found.document()), **shown}, shown),
         rows=_rows(section),
         advice=tuple(_advice(section)),
         tables=_table(section),

@@ -33,12 +33,13 @@ def work(
     Example:
       elastogeo history work --store shop.db
     """
-    from elastogeo.history.jobs import Worker, stop_at_signals
+    from elastogeo.history.jobs import Worker, give_way, stop_at_signals
     from elastogeo.history.parcels import sweep_parcels
 
     with eg.History(store, who=who) as history:
         worker = Worker(history.store, _tell, sweep_parcels)
         stop_at_signals(worker)
+        give_way()
         if attached:
             threading.Thread(target=_stop_at_end, args=(worker,), daemon=True).start()
         worker.run(once)
