@@ -46,6 +46,10 @@ WIDE = """() => document.scrollingElement.scrollWidth <= %d ? [] : [...document.
   .map((one) => `too wide: ${one.outerHTML.slice(0, 120)}`)"""
 
 
+DRAWN = "() => !document.querySelector('#says[hx-get], #making')"
+"""Whether what a worker draws is on the page: what is judged is the page that people read, not the one that waits."""
+
+
 @pytest.fixture(scope="module")
 def axe() -> Any:
     found = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-core, for its package is not there")
@@ -75,6 +79,7 @@ def faults_on_a_phone(page: Any) -> list[str]:
 def test_a_page_shuts_nobody_out_and_fits_the_phone(path: str, screen: Watched, axe: Any) -> None:
     page = screen.page
     assert screen.go(path).status == 200
+    page.wait_for_function(DRAWN)
     assert [page.locator(one).count() for one in ("h1", "main", "nav")] >= [1, 1, 1]
     faults = {"light": found_by(axe, page), "desktop": page.evaluate(TEXTS % SMALLEST_TEXT)}
     page.emulate_media(color_scheme="dark")
@@ -87,6 +92,7 @@ def test_a_page_shuts_nobody_out_and_fits_the_phone(path: str, screen: Watched, 
 @pytest.mark.parametrize("path", addresses())
 def test_every_control_is_reached_by_tab(path: str, screen: Watched) -> None:
     screen.go(path)
+    screen.page.wait_for_function(DRAWN)
     faults = not_reached(screen.page)
     assert not faults, "\n".join(faults)
 

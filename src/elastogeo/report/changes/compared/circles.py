@@ -84,7 +84,7 @@ def _lines(result: ComparedTests, force: float) -> _Lines:
 
 
 def _plain(result: ComparedTests, lines: _Lines, scale: Scale, size: float) -> Plot:
-    frame = Frame(scale, size)
+    frame = Frame(scale, size, size)
     drawn = [
         trace_line(
             frame, angle, values, DIRECTIONS[trace.sense], 2.0 if trace.later else 1.5, () if trace.later else _EARLIER
