@@ -1,10 +1,10 @@
-"""What a person looks at in a history: a machine, an indicator, what has a word in its name. A part of `History`."""
+"""What a person looks at in a history: a machine, what has a word in its name. A part of `History`."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from elastogeo.changes import Found, MachineState, Trend, machine_shown
+from elastogeo.changes import Found, MachineState, machine_shown
 from elastogeo.errors import InputError
 from elastogeo.history.alarms.judging import judged
 from elastogeo.history.alarms.states import state_rows
@@ -55,31 +55,6 @@ class Looking:
             chosen = series if series is not None or not known else plain.rows[0].series_key
             verdicts = [] if chosen is None else [judged(connection, chosen, at)]
         return replace(plain, series=tuple(verdicts))
-
-    def trend(self, series: int, indicator: str = "", span: float | None = None, first: int = 0) -> Trend:
-        """One indicator of a series over time.
-
-        Parameters
-        ----------
-        series : int
-            Its key.
-        indicator : str
-            Its name; empty: the one to look at first.
-        span : float, optional [d]
-            How long before the last test it begins.
-        first : int
-            Of the tests, the newest first, the first that is listed.
-
-        Raises
-        ------
-        InputError
-            If there is no such series, or it has no such indicator.
-        """
-        with read(self.store) as connection:
-            verdict = judged(connection, series, now())
-        if indicator and indicator not in verdict:
-            raise InputError(f"the series has no such indicator; it has {', '.join(verdict.series.indicators) or 'none'}")
-        return Trend(verdict, indicator, span, first)
 
     def search(self, words: str) -> Found:
         """Machines, series, tests, instruments and events that have these words in what is said of them."""

@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from elastogeo.changes import KeptJob, KeptJobs
+from elastogeo.errors import InputError
+from elastogeo.history.intake.machines import machines
 from elastogeo.history.jobs import rows
-from elastogeo.history.store import Store, read
+from elastogeo.history.store import Store, now, read
 
 
 class Tasks:
@@ -44,6 +46,21 @@ class Tasks:
             If there is no such kind.
         """
         return rows.put_job(self.store, kind, asked or {}, self.who)
+
+    def put_demo(self) -> int:
+        """Ask a worker for the simulated fleet, as it would stand today; the number of the job.
+
+        Raises
+        ------
+        InputError
+            If the history has a machine: what is simulated never stands beside what is measured.
+        """
+        with read(self.store) as connection:
+            if machines(connection):
+                raise InputError(
+                    "the simulated fleet is made in an empty history only, so that it never stands beside measured tests"
+                )
+        return self.put_job("demo", {"until": f"{now():%Y-%m-%dT00:00:00+00:00}"})
 
     def job(self, number: int) -> KeptJob:
         """A job as it stands.

@@ -11,13 +11,11 @@ from urllib.parse import quote
 from fastapi import Response
 
 from elastogeo.report import View, csv_of
-from elastogeo.web.asking import Asked
+from elastogeo.web.asking import SAID, Asked
 from elastogeo.web.templating import page
 
 HTML, JSON, CSV = "", ".json", ".csv"
 """What is appended to the path for each rendering."""
-SAID = "elastogeo_said"
-"""Cookie of the sentence that the next page says of what was done."""
 
 
 @dataclass(frozen=True)
@@ -77,11 +75,10 @@ def rendered(shown: Shown, asked: Asked, twin: str, tag: str) -> Response:
     if twin == CSV:
         rows = shown.rows if shown.rows is not None else () if view is None else view.rows
         return Response(csv_of(rows), media_type="text/csv; charset=utf-8", headers=headers)
-    said = asked.request.cookies.get(SAID, "")
     name = shown.part if asked.by_htmx and shown.part else shown.template
     text = page(name, asked, view=view, **shown.context)
     answer = Response(text, media_type="text/html; charset=utf-8", headers=headers | {"Vary": "Cookie, HX-Request"})
-    if said and not asked.by_htmx:
+    if asked.says_something and not asked.by_htmx:
         answer.delete_cookie(SAID, path=asked.url("/"))
     return answer
 
@@ -97,9 +94,21 @@ def in_ascii(address: str) -> str:
     return quote(address, safe="/?#[]@!$&'()*+,;=:%~")
 
 
+def download(content: str | bytes, name: str, media: str) -> Response:
+    """A file to keep, under a name of plain letters."""
+    safe = "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in name if letter.isascii())
+    headers = {"Content-Disposition": f'attachment; filename="{safe}"', "Cache-Control": "private, no-cache"}
+    return Response(content, media_type=media, headers=headers)
+
+
+def last_page(count: int, on_a_page: int) -> int:
+    """The number of the last page of a long table, from 1."""
+    return max(-(-count // on_a_page), 1)
+
+
 def gone_on(done: Done, asked: Asked) -> Response:
     """What follows an act: the next page, or a document for a program."""
-    if "application/json" in asked.request.headers.get("accept", ""):
+    if asked.by_program:
         return json_response({"done": done.said, "at": asked.url(done.to), **done.document})
     answer = Response(status_code=303, headers={"Location": in_ascii(asked.url(done.to))})
     if done.said:

@@ -106,8 +106,7 @@ def _failed(request: Request, error: Exception) -> Response:
 
 def told(asked: Asked, status: int, sentence: str) -> Response:
     """An error in one sentence, as a page or as a document."""
-    path, accepted = asked.request.url.path, asked.request.headers.get("accept", "")
-    if path.endswith((".json", ".csv")) or "application/json" in accepted:
+    if asked.by_program or asked.request.url.path.endswith((".json", ".csv")):
         return json_response({"schema": "elastogeo.error/1", "error": sentence}, status)
     return Response(
         page("error.html.j2", asked, sentence=sentence, status=status), status, media_type="text/html; charset=utf-8"

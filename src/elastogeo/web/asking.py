@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated
@@ -20,6 +22,8 @@ ANYBODY, READER, ENGINEER, ADMINISTRATOR = "anybody", "reader", "engineer", "adm
 ROLES = (ANYBODY, READER, ENGINEER, ADMINISTRATOR)
 """What a person may do, each what the one before may and more: log in; look; test, judge and plan; decide who comes in."""
 THEMES = ("auto", "light", "dark")
+SAID, THEME = "elastogeo_said", "elastogeo_theme"
+"""Cookies: the sentence that the next page says of what was done; the theme of a browser."""
 
 
 class NotFound(InputError):  # noqa: N818
@@ -28,6 +32,25 @@ class NotFound(InputError):  # noqa: N818
 
 class Refused(InputError):  # noqa: N818
     """The visitor's role does not allow this."""
+
+
+@contextmanager
+def or_not_found(sentence: str = "") -> Iterator[None]:
+    """Do something with what an address names: what the history does not find is a page that is not there.
+
+    Parameters
+    ----------
+    sentence : str
+        That the page says; empty: what the history says.
+
+    Raises
+    ------
+    NotFound
+    """
+    try:
+        yield
+    except InputError as error:
+        raise NotFound(sentence or str(error)) from None
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +106,7 @@ class Asked:
     @cached_property
     def theme(self) -> str:
         """`light`, `dark`, or `auto`: as the browser prefers."""
-        asked = self.request.cookies.get("elastogeo_theme", "auto")
+        asked = self.request.cookies.get(THEME, "auto")
         return asked if asked in THEMES else "auto"
 
     @cached_property
@@ -105,12 +128,17 @@ class Asked:
     @property
     def says_something(self) -> bool:
         """Whether the page also says what was done just before."""
-        return "elastogeo_said" in self.request.cookies
+        return SAID in self.request.cookies
 
     @property
     def by_htmx(self) -> bool:
         """Whether a part of a page is asked for, to be put into the page that is there."""
         return self.request.headers.get("hx-request") == "true"
+
+    @property
+    def by_program(self) -> bool:
+        """Whether a document is wanted where a person gets a page."""
+        return "application/json" in self.request.headers.get("accept", "")
 
     def tag(self) -> str:
         """The ETag of what is shown: another one as soon as something that a page shows has changed."""

@@ -9,7 +9,6 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -52,7 +51,7 @@ def serve(settings: Settings, say: Callable[[str], None] = print) -> None:
         if is_new and not settings.demo:
             say(f"{settings.store} was not there: a new, empty history was made")
         if settings.demo and not history.machines():
-            history.put_job("demo", {"until": f"{datetime.now(UTC):%Y-%m-%dT00:00:00+00:00}"})
+            history.put_demo()
         if settings.worker:
             history.resume_jobs()
         app = application(settings, history.store)

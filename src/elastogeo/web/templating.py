@@ -14,7 +14,7 @@ from markupsafe import Markup, escape
 
 from elastogeo.report import Picture, plot_svg, svg_of
 from elastogeo.version import VERSION
-from elastogeo.web.asking import Asked
+from elastogeo.web.asking import SAID, Asked
 
 STATIC = files("elastogeo.web") / "static"
 
@@ -39,7 +39,7 @@ def page(name: str, asked: Asked, **context: Any) -> str:
             static=lambda file: f"{asked.settings.prefix}/static/{file}?v={_digest(file)}",
             visitor=asked.visitor,
             theme=asked.theme,
-            said=unquote(asked.request.cookies.get("elastogeo_said", "")),
+            said=unquote(asked.request.cookies.get(SAID, "")),
             version=VERSION,
             **context,
         )

@@ -10,15 +10,14 @@ from elastogeo.changes.alarms import ACKNOWLEDGED, FALSE, HELD, OPEN, REPAIRED
 from elastogeo.errors import InputError
 from elastogeo.report import view_of
 from elastogeo.web.answering import Done, Shown
-from elastogeo.web.asking import ENGINEER, Ask, NotFound
+from elastogeo.web.asking import ENGINEER, Ask, or_not_found
+from elastogeo.web.fields import Why
 from elastogeo.web.pages import Pages
 
 pages = Pages()
 CLOSED_FOR = 90.0
 """Days for which a closed alarm is shown."""
 STATES = (OPEN, ACKNOWLEDGED, HELD, REPAIRED, FALSE)
-
-Why = Annotated[str, Form(max_length=2000)]
 
 
 @pages.shows("/alarms")
@@ -34,10 +33,8 @@ def alarms(asked: Ask, state: str = "", hall: str = "") -> Shown:
 @pages.shows("/alarms/{key:int}")
 def alarm(asked: Ask, key: int) -> Shown:
     """One alarm: how it stands, what happened to it, who was told."""
-    try:
+    with or_not_found("There is no such alarm."):
         found = asked.history.alarm(key)
-    except InputError:
-        raise NotFound("There is no such alarm.") from None
     return Shown("care/alarm.html.j2", view_of(found), context={"row": found.row, "is_open": found.is_open})
 
 

@@ -9,7 +9,7 @@ from fastapi import Form
 from elastogeo.errors import InputError
 from elastogeo.report import view_of
 from elastogeo.web.answering import Done, Shown
-from elastogeo.web.asking import ENGINEER, Ask, NotFound
+from elastogeo.web.asking import ENGINEER, Ask, or_not_found
 from elastogeo.web.pages import Pages
 
 pages = Pages()
@@ -27,10 +27,8 @@ def instruments(asked: Ask) -> Shown:
 @pages.shows("/instruments/{key:int}")
 def instrument(asked: Ask, key: int) -> Shown:
     """One instrument: its calibrations, its alarms, what was tested with it."""
-    try:
+    with or_not_found("There is no such instrument."):
         found = asked.history.instrument(key)
-    except InputError:
-        raise NotFound("There is no such instrument.") from None
     return Shown("care/instrument.html.j2", view_of(found), context={"key": key, "alarm": found.instrument.alarm})
 
 
@@ -48,8 +46,7 @@ def calibrate(asked: Ask, key: int, calibrated: Day, due: Day = "", certificate:
     """Note a calibration."""
     if not calibrated:
         raise InputError("a calibration has a day; give it")
-    serial = next((one.serial for one in asked.history.instruments().instruments if one.key == key), None)
-    if serial is None:
-        raise NotFound("There is no such instrument.")
+    with or_not_found("There is no such instrument."):
+        serial = asked.history.instrument(key).instrument.serial
     asked.history.add_instrument(serial, calibrated=calibrated, due=due, certificate=certificate)
     return Done(f"/instruments/{key}", f"The calibration of {serial} is kept.")

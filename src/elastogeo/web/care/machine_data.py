@@ -9,6 +9,7 @@ from fastapi import Form
 from elastogeo.report import view_of
 from elastogeo.web.answering import Done, Shown
 from elastogeo.web.asking import ENGINEER, Ask
+from elastogeo.web.fields import Why
 from elastogeo.web.pages import Pages
 
 pages = Pages()
@@ -32,7 +33,7 @@ def change_machine(
     kind: Text = "",
     serial: Text = "",
     place: Text = "",
-    why: Annotated[str, Form(max_length=2000)] = "",
+    why: Why = "",
 ) -> Done:
     """Say anew what a machine is called, its model, serial number and place."""
     asked.machine(key)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Annotated
 
 from fastapi import Form
@@ -11,20 +12,18 @@ from elastogeo.errors import InputError
 from elastogeo.report import view_of
 from elastogeo.report.changes import taken
 from elastogeo.web.answering import Done, Shown
-from elastogeo.web.asking import ENGINEER, Ask, NotFound
+from elastogeo.web.asking import ENGINEER, Ask, Asked, or_not_found
+from elastogeo.web.fields import Why
 from elastogeo.web.pages import Pages
 
 pages = Pages()
 
-Why = Annotated[str, Form(max_length=2000)]
 Number = Annotated[str, Form(max_length=40)]
 
 
-def _series(asked: Ask, key: int) -> SeriesRecord:
-    try:
+def _series(asked: Asked, key: int) -> SeriesRecord:
+    with or_not_found("There is no such series."):
         return asked.history.series_settings(key)
-    except InputError:
-        raise NotFound("There is no such series.") from None
 
 
 @pages.shows("/settings/series/{key:int}")
@@ -52,10 +51,13 @@ def set_baseline(
 ) -> Done:
     """Set the tests that count as the ordinary state: `chosen` ones, or the `first` or `last` so many."""
     of = _series(asked, key).wanted
-    if which in ("first", "last"):
-        chosen = asked.history.set_baseline(of.machine, of.series, why=why, **{which: _whole(count, "how many tests")})  # type: ignore[arg-type]
+    set_ = partial(asked.history.set_baseline, of.machine, of.series, why=why)
+    if which == "first":
+        chosen = set_(first=_whole(count, "how many tests"))
+    elif which == "last":
+        chosen = set_(last=_whole(count, "how many tests"))
     elif tests:
-        chosen = asked.history.set_baseline(of.machine, of.series, why=why, tests=tests)
+        chosen = set_(tests=tests)
     else:
         raise InputError("no test was chosen; a baseline is made of two tests or more, of six or more for alarms")
     said = f"The baseline is made of {len(chosen.tests)} tests." if chosen.new else "It was set so already."

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from fastapi import Form, Response
 
-from elastogeo.web.asking import READER, THEMES, Ask
+from elastogeo.web.asking import READER, THEME, THEMES, Ask
 from elastogeo.web.pages import Pages
 
 pages = Pages()
@@ -17,7 +17,5 @@ def theme(asked: Ask, theme: Annotated[str, Form(max_length=10)]) -> Response:
     """Keep the theme in a cookie of this browser, and show the page again from which it was chosen."""
     answer = Response(status_code=303, headers={"Location": asked.came_from()})
     if theme in THEMES:
-        answer.set_cookie(
-            "elastogeo_theme", theme, max_age=31_536_000, path=asked.url("/"), httponly=True, samesite="strict"
-        )
+        answer.set_cookie(THEME, theme, max_age=31_536_000, path=asked.url("/"), httponly=True, samesite="strict")
     return answer

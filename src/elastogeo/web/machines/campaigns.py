@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-from fastapi import Query
-
-from elastogeo.errors import InputError
 from elastogeo.report import view_of
 from elastogeo.web.answering import Done, Shown
-from elastogeo.web.asking import ENGINEER, Ask, NotFound
+from elastogeo.web.asking import ENGINEER, Ask, or_not_found
+from elastogeo.web.fields import Key
 from elastogeo.web.pages import Pages
 
 pages = Pages()
 
 
 @pages.shows("/campaigns")
-def campaigns(asked: Ask, machine: Annotated[int, Query(ge=0, le=2**53)] = 0) -> Shown:
+def campaigns(asked: Ask, machine: Key = 0) -> Shown:
     """The campaigns of all machines, or of one."""
     of = asked.machine(machine).name if machine else None
     machines = asked.history.machines()
@@ -27,10 +23,8 @@ def campaigns(asked: Ask, machine: Annotated[int, Query(ge=0, le=2**53)] = 0) ->
 @pages.shows("/campaigns/{key:int}")
 def campaign(asked: Ask, key: int) -> Shown:
     """What the tests of a campaign say together, and what each of them brings."""
-    try:
+    with or_not_found("There is no such campaign."):
         kept = asked.history.campaign(key)
-    except InputError:
-        raise NotFound("There is no such campaign.") from None
     return Shown(
         "machines/campaign.html.j2", view_of(kept), context={"key": key, "address": lambda test: asked.url(f"/tests/{test}")}
     )
@@ -39,9 +33,7 @@ def campaign(asked: Ask, key: int) -> Shown:
 @pages.acts("/campaigns/{key:int}/recompute", role=ENGINEER)
 def recompute(asked: Ask, key: int) -> Done:
     """Ask the tests of a campaign again, from their raw records."""
-    try:
+    with or_not_found("There is no such campaign."):
         asked.history.campaign(key)
-    except InputError:
-        raise NotFound("There is no such campaign.") from None
     number = asked.history.put_job("recompute campaign", {"campaign": key})
     return Done(f"/jobs/{number}", "The tests are asked again, from their raw records.", {"job": number})

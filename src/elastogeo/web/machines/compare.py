@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-from fastapi import Query
-
 from elastogeo.report import view_of
 from elastogeo.web.answering import Shown
 from elastogeo.web.asking import Ask
+from elastogeo.web.fields import Key, Word
 from elastogeo.web.pages import Pages
 
 pages = Pages()
 
-Key = Annotated[int, Query(ge=0, le=2**53)]
-
 
 @pages.shows("/compare")
-def compare(asked: Ask, a: Key = 0, b: Key = 0, level: Annotated[str, Query(max_length=40)] = "") -> Shown:
+def compare(asked: Ask, a: Key = 0, b: Key = 0, level: Word = "") -> Shown:
     """Two tests, `a` and `b`; without the second one, the tests with which the first may be compared."""
     one = a or b
     choices = asked.history.comparable(one) if one else None

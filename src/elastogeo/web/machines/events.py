@@ -11,22 +11,22 @@ from elastogeo.errors import InputError
 from elastogeo.report import view_of
 from elastogeo.web.answering import Done, Shown
 from elastogeo.web.asking import ENGINEER, Ask
+from elastogeo.web.fields import Key, Why, Word
 from elastogeo.web.pages import Pages
 
 pages = Pages()
 
-Key = Annotated[int, Query(ge=0, le=2**53)]
 Kind = Annotated[str, Form(max_length=40)]
-Note = Annotated[str, Form(max_length=2000)]
 Day = Annotated[str, Form(max_length=40)]
+Year = Annotated[int, Query(ge=0, le=9999)]
 
 
 @pages.shows("/events")
 def events(
     asked: Ask,
     machine: Key = 0,
-    kind: Annotated[str, Query(max_length=40)] = "",
-    year: Annotated[int, Query(ge=0, le=9999)] = 0,
+    kind: Word = "",
+    year: Year = 0,
 ) -> Shown:
     """The events of all machines and instruments, by machine, kind and year."""
     of = asked.machine(machine).name if machine else ""
@@ -38,8 +38,8 @@ def events(
 def of_machine(
     asked: Ask,
     key: int,
-    kind: Annotated[str, Query(max_length=40)] = "",
-    year: Annotated[int, Query(ge=0, le=9999)] = 0,
+    kind: Word = "",
+    year: Year = 0,
 ) -> Shown:
     """What happened to a machine and to the instruments that tested it."""
     found = asked.history.events(asked.machine(key).name, kind, year or None)
@@ -47,7 +47,7 @@ def of_machine(
 
 
 @pages.acts("/machines/{key:int}/events", role=ENGINEER)
-def add_to_machine(asked: Ask, key: int, kind: Kind, note: Note, at: Day = "") -> Done:
+def add_to_machine(asked: Ask, key: int, kind: Kind, note: Why, at: Day = "") -> Done:
     """Write down what happened to a machine."""
     got = asked.history.add_event(kind, note, machine=asked.machine(key).name, at=at)
     return Done(f"/machines/{key}/events", f"Written down: {got.kind} of {got.of}.", {"event": got.key})
@@ -57,7 +57,7 @@ def add_to_machine(asked: Ask, key: int, kind: Kind, note: Note, at: Day = "") -
 def add(
     asked: Ask,
     kind: Kind,
-    note: Note,
+    note: Why,
     machine: Annotated[int, Form(ge=0, le=2**53)] = 0,
     instrument: Annotated[str, Form(max_length=200)] = "",
     at: Day = "",

@@ -5,28 +5,25 @@ from __future__ import annotations
 import gzip
 import json
 from functools import cache
-from typing import Annotated
 
-from fastapi import Query, Response
+from fastapi import Response
 
-from elastogeo.errors import InputError
 from elastogeo.report import PLOTLY_CONFIG, plotly_library, view_of
 from elastogeo.web.answering import Shown
-from elastogeo.web.asking import ANYBODY, Ask, NotFound
+from elastogeo.web.asking import ANYBODY, Ask, or_not_found
+from elastogeo.web.fields import Key
 from elastogeo.web.pages import Pages
 
 pages = Pages()
 
 
 @pages.shows("/explore")
-def explore(asked: Ask, test: Annotated[int, Query(ge=0, le=2**53)] = 0) -> Shown:
+def explore(asked: Ask, test: Key = 0) -> Shown:
     """Measured, model and residual of every run of a test."""
     if not test:
         return Shown("machines/explore.html.j2", None, document={}, context={"key": 0, "config": "{}", "plotly": ""})
-    try:
+    with or_not_found():
         view = view_of(asked.history.explore(test))
-    except InputError as error:
-        raise NotFound(str(error)) from None
     context = {"key": test, "config": json.dumps(PLOTLY_CONFIG), "plotly": _version()}
     return Shown("machines/explore.html.j2", view, context=context)
 

@@ -9,10 +9,10 @@ from typing import Annotated, Any
 from fastapi import Form, Query, Response
 
 from elastogeo.changes import KeptJob, KeptTest
-from elastogeo.errors import InputError
 from elastogeo.report import KeptView, Plot, Section, html_page, pdf_page, plot_of, view_kept, view_of
-from elastogeo.web.answering import Done, Shown, json_response
-from elastogeo.web.asking import ENGINEER, Ask, Asked, NotFound
+from elastogeo.web.answering import Done, Shown, download, json_response
+from elastogeo.web.asking import ENGINEER, Ask, Asked, NotFound, or_not_found
+from elastogeo.web.fields import Why
 from elastogeo.web.pages import Pages
 from elastogeo.web.templating import page
 
@@ -90,32 +90,30 @@ def columns(asked: Ask, key: int, force: float | None = None) -> Response:
 @pages.gives("/tests/{key:int}/files/{number:int}")
 def raw_file(asked: Ask, key: int, number: int) -> Response:
     """A raw file of a test, as it came in."""
-    try:
+    with or_not_found():
         path, content = asked.history.raw_file(key, number)
-    except InputError as error:
-        raise NotFound(str(error)) from error
-    return _file(content, path.rpartition("/")[2], "application/octet-stream")
+    return download(content, path.rpartition("/")[2], "application/octet-stream")
 
 
 @pages.gives("/tests/{key:int}/report.html", media="text/html")
 def report_page(asked: Ask, key: int) -> Response:
     """The report of a test as one page that opens offline."""
     kept = _report(asked, key)
-    return _file(html_page(kept.view, kept.figures).encode(), f"test-{key}.html", "text/html; charset=utf-8")
+    return download(html_page(kept.view, kept.figures), f"test-{key}.html", "text/html; charset=utf-8")
 
 
 @pages.gives("/tests/{key:int}/report.pdf", media="application/pdf")
 def report_pdf(asked: Ask, key: int) -> Response:
     """The report of a test for the machine's file."""
     kept = _report(asked, key)
-    return _file(pdf_page(kept.view, kept.figures), f"test-{key}.pdf", "application/pdf")
+    return download(pdf_page(kept.view, kept.figures), f"test-{key}.pdf", "application/pdf")
 
 
 @pages.acts("/tests/{key:int}/aside", role=ENGINEER)
 def set_aside(
     asked: Ask,
     key: int,
-    why: Annotated[str, Form(max_length=2000)],
+    why: Why,
     back: Annotated[bool, Form()] = False,
 ) -> Done:
     """Set a test aside so that it counts in no chart, or take it back."""
@@ -141,10 +139,8 @@ def recompute(asked: Ask, key: int) -> Done:
 
 
 def _kept(asked: Asked, key: int) -> KeptTest:
-    try:
+    with or_not_found("There is no such test."):
         return asked.history.test(key)
-    except InputError as error:
-        raise NotFound("There is no such test.") from error
 
 
 def _drawn(asked: Asked, kept: KeptTest) -> Drawn | None:
@@ -212,9 +208,3 @@ def _report(asked: Asked, key: int) -> KeptView:
     said = {name for name, _ in known.head}
     about = (*known.head, *(one for one in drawn.head if one[0] not in said))
     return replace(found.kept, view=replace(drawn, subtitle=f"{known.subtitle}, {drawn.subtitle}", head=about))
-
-
-def _file(content: bytes, name: str, media: str) -> Response:
-    safe = "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in name if letter.isascii())
-    headers = {"Content-Disposition": f'attachment; filename="{safe}"', "Cache-Control": "private, no-cache"}
-    return Response(content, media_type=media, headers=headers)

@@ -30,7 +30,7 @@ def make_token(asked: Ask, purpose: Annotated[str, Form(max_length=200)]) -> Res
     """Make a token of one's own account. It is in this answer, and nowhere else ever again."""
     _check_account(asked)
     made = asked.history.make_token(asked.visitor.name, purpose)
-    if "application/json" in asked.request.headers.get("accept", ""):
+    if asked.by_program:
         return json_response({"schema": "elastogeo.token/1", "number": made.number, "token": made.secret})
     view = view_of(asked.history.tokens(asked.visitor.name))
     text = page("people/tokens.html.j2", asked, view=view, made=made.secret)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
 from typing import Annotated
 
 from fastapi import Form
@@ -27,11 +26,7 @@ def first(asked: Ask) -> Shown:
 @pages.acts("/first/demo", role=ENGINEER)
 def demo(asked: Ask) -> Done:
     """Fill a history that has no machines with the simulated fleet."""
-    if asked.history.machines():
-        raise InputError(
-            "the simulated fleet is made in an empty history only, so that it never stands beside measured tests"
-        )
-    job = asked.history.put_job("demo", {"until": f"{datetime.now(UTC):%Y-%m-%dT00:00:00+00:00}"})
+    job = asked.history.put_demo()
     return Done(f"/jobs/{job}", document={"job": job})
 
 

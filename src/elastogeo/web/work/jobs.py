@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from elastogeo.changes import KeptJob
-from elastogeo.errors import InputError
 from elastogeo.report import view_of
 from elastogeo.web.answering import Done, Shown
-from elastogeo.web.asking import ADMINISTRATOR, ENGINEER, Ask, Asked, NotFound
+from elastogeo.web.asking import ADMINISTRATOR, ENGINEER, Ask, Asked, or_not_found
 from elastogeo.web.pages import Pages
 from elastogeo.web.work.upload import unplaced
 
@@ -62,7 +61,5 @@ def _mine(asked: Asked, key: int) -> None:
 
 
 def _found(asked: Asked, key: int) -> KeptJob:
-    try:
+    with or_not_found("There is no such job."):
         return asked.history.job(key)
-    except InputError as error:
-        raise NotFound(f"{str(error)[:1].upper()}{str(error)[1:]}.") from None

@@ -7,11 +7,12 @@ from typing import Annotated
 from fastapi import Form, Query, Response
 
 from elastogeo.changes import KeptJob, NextGoal
-from elastogeo.errors import ElastogeoError, InputError
+from elastogeo.errors import ElastogeoError
 from elastogeo.formats import flavours
 from elastogeo.report import simulated_said, view_of
-from elastogeo.web.answering import Done, Shown
-from elastogeo.web.asking import ENGINEER, Ask, Asked, NotFound
+from elastogeo.web.answering import Done, Shown, download
+from elastogeo.web.asking import ENGINEER, Ask, Asked, NotFound, or_not_found
+from elastogeo.web.fields import Why
 from elastogeo.web.pages import Pages
 
 pages = Pages()
@@ -29,10 +30,8 @@ def plans(asked: Ask, machine: Annotated[int | None, Query(ge=1)] = None) -> Sho
 @pages.shows("/plans/{number:int}")
 def one_plan(asked: Ask, number: int) -> Shown:
     """A plan: what is to be done, in which order, with the programs of its tests for each control."""
-    try:
+    with or_not_found():
         found = asked.history.plan_to_do(number)
-    except InputError as error:
-        raise NotFound(str(error)) from None
     key = next((one.key for one in asked.history.machines() if one.name == found.plan.machine), None)
     context = {
         "plan": found.plan,
@@ -55,21 +54,19 @@ def program(asked: Ask, number: int, file: str) -> Response:
         name, content = asked.history.plan_program(number, test, flavour)
     except ElastogeoError as error:
         raise NotFound(str(error)) from None
-    return _file(content, name, "text/plain; charset=us-ascii")
+    return download(content, name, "text/plain; charset=us-ascii")
 
 
 @pages.gives("/plans/{number:int}/folder.zip", media="application/zip")
 def folder(asked: Ask, number: int) -> Response:
     """The folder to measure of a plan: its tests, and their programs for every control."""
-    try:
+    with or_not_found():
         content = asked.history.plan_folder(number)
-    except InputError as error:
-        raise NotFound(str(error)) from None
-    return _file(content, f"plan-{number}.zip", "application/zip")
+    return download(content, f"plan-{number}.zip", "application/zip")
 
 
 @pages.acts("/plans/{number:int}/done", role=ENGINEER)
-def finish(asked: Ask, number: int, why: Annotated[str, Form(max_length=2000)] = "") -> Done:
+def finish(asked: Ask, number: int, why: Why = "") -> Done:
     """Say that a plan was done; from then on it is not due."""
     asked.history.finish_plan(number, why)
     return Done(f"/plans/{number}", "The plan is done.")
@@ -165,10 +162,8 @@ def _job(asked: Asked, key: int, number: int | None) -> KeptJob | None:
     """
     if number is None:
         return None
-    try:
+    with or_not_found("There is no such job."):
         found = asked.history.job(number)
-    except InputError:
-        raise NotFound("There is no such job.") from None
     if found.kind != "plan" or found.asked.get("machine") != key:
         raise NotFound("This job plans nothing for this machine.")
     return found
@@ -181,8 +176,3 @@ def _spelled(goal: NextGoal) -> str:
 
 def _capital(words: str) -> str:
     return words[:1].upper() + words[1:]
-
-
-def _file(content: bytes, name: str, media: str) -> Response:
-    headers = {"Content-Disposition": f'attachment; filename="{name}"', "Cache-Control": "private, no-cache"}
-    return Response(content, media_type=media, headers=headers)
