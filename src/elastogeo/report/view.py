@@ -169,9 +169,9 @@ class Section:
     note: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class View:
-    """What a person is shown of a result.
+    """What a person is shown of a result; what there is not may be left out, but where the data come from is always said.
 
     Attributes
     ----------
@@ -213,13 +213,13 @@ class View:
 
     kind: str
     title: str
-    subtitle: str
+    subtitle: str = ""
     origin: str
-    head: tuple[tuple[str, str], ...]
+    head: tuple[tuple[str, str], ...] = ()
     sentence: str
-    values: tuple[KeyValue, ...]
-    picture: Picture | None
-    checks: tuple[Said, ...]
+    values: tuple[KeyValue, ...] = ()
+    picture: Picture | None = None
+    checks: tuple[Said, ...] = ()
     document: Mapping[str, Any]
     rows: Sequence[Mapping[str, Any]] = ()
     alert: tuple[str, ...] = ()

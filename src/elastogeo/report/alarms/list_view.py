@@ -65,13 +65,8 @@ def alarm_list_view(result: AlarmList) -> View:
     return View(
         kind="Alarms",
         title=date_said(result.now),
-        subtitle="",
         origin=simulated_said(result.simulated),
-        head=(),
         sentence=_answer(result),
-        values=(),
-        picture=None,
-        checks=(),
         document=document(SCHEMA, found),
         rows=rows,
         tables=tables,

@@ -44,13 +44,9 @@ def alarm_news_view(result: AlarmNews) -> View:
     return View(
         kind=_KINDS[result.step],
         title=of_what(row),
-        subtitle="",
         origin=simulated_said(result.simulated),
         head=(("Alarm", str(row.number)), ("Opened", date_said(row.opened))),
         sentence=_answer(result) if verdict is None else verdict.sentence,
-        values=(),
-        picture=None,
-        checks=(),
         document=document(SCHEMA, found),
         advice=() if verdict is None else verdict.advice,
         notes=_beside(result),

@@ -42,12 +42,9 @@ def verified_view(result: Verified) -> View:
     return View(
         kind="Verification",
         title=result.store,
-        subtitle="",
         origin="",
-        head=(),
         sentence=_answer(result),
         values=(KeyValue("Rows", f"{sum(result.rows.values())}"), KeyValue("Raw files", f"{result.files}")),
-        picture=None,
         checks=said(result.verdict),
         document=document(SCHEMA, found),
         rows=rows,

@@ -46,12 +46,9 @@ def audit_view(result: AuditTrail) -> View:
     return View(
         kind="Audit trail",
         title=result.store,
-        subtitle="",
         origin="",
-        head=(),
         sentence=_answer(result),
         values=(KeyValue("Rows", f"{result.count}"), KeyValue("Seal of the last row", result.head[:16], "", result.head)),
-        picture=None,
         checks=said(result.verdict),
         document=document(SCHEMA, found),
         rows=rows,

@@ -39,13 +39,8 @@ def found_view(found: Found) -> View:
     return View(
         kind="Search",
         title="Search",
-        subtitle="",
         origin="",
-        head=(),
         sentence=_sentence(found),
-        values=(),
-        picture=None,
-        checks=(),
         document=whole,
         rows=whole["entries"],
         tables=tuple(_table(found, kind) for kind in FOUND_KINDS if any(entry.kind == kind for entry in found.entries)),

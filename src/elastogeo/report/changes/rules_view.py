@@ -37,7 +37,6 @@ def rules_view(result: RuleTest) -> View:
         title=result.name or "Any machine",
         subtitle=f"{len(result.indicators)} indicators, a baseline of {result.baseline} tests, alpha {result.rule.alpha:g}",
         origin=f"Simulated: machines that scatter by {result.simulated}.",
-        head=(),
         sentence=(
             f"Of {result.machines} simulated machines that do not change, {rate} % alarm at least once in {result.tests} "
             f"tests ({span}). {_slowest(result)}"
@@ -49,8 +48,6 @@ def rules_view(result: RuleTest) -> View:
             KeyValue("Repeats asked for", significant(result.repeats, 2), "", "of each such machine, in as many tests"),
             KeyValue("Interval", significant(result.interval, 3), "days", "between tests"),
         ),
-        picture=None,
-        checks=(),
         document=_document(result),
         rows=_faults(result),
         tables=(_table(result),),

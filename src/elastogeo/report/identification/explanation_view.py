@@ -50,8 +50,6 @@ def explanation_view(explained: Explanation) -> View:
             KeyValue("condition number, scaled columns", f"{found.condition_scaled:.4g}"),
             KeyValue("changes no reading", str(len(found.null)), "parameters"),
         ),
-        picture=None,
-        checks=(),
         document=document,
         rows=document["retained"],
         tables=(*steps, table),

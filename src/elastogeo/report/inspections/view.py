@@ -46,8 +46,6 @@ def inspection_view(found: Inspected) -> View:
         head=(("Format", found.format), ("Kind", _KINDS.get(found.kind, found.kind))),
         sentence=_answer(found),
         values=(KeyValue("columns", str(len(found.columns))),),
-        picture=None,
-        checks=(),
         document=entries,
         rows=entries["columns"],
         alert=(found.problem,) if found.problem else (),

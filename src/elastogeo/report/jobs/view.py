@@ -60,9 +60,6 @@ def job_view(job: KeptJob) -> View:
             if text
         ),
         sentence=told[0],
-        values=(),
-        picture=None,
-        checks=(),
         document=document(SCHEMA, entry_of(job)),
         rows=(job.result or {}).get("tests", ()),
         tables=told[1],
@@ -88,13 +85,8 @@ def jobs_view(found: KeptJobs) -> View:
     return View(
         kind="Jobs",
         title=found.store,
-        subtitle="",
         origin="",
-        head=(),
         sentence=_counts(found),
-        values=(),
-        picture=None,
-        checks=(),
         document=document(LIST_SCHEMA, {"store": found.store, "jobs": rows}),
         rows=rows,
         tables=(table,) if rows else (),

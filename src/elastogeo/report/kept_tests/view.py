@@ -37,8 +37,6 @@ def kept_test_view(test: KeptTest) -> View:
         origin=_origin(test),
         head=tuple(_head(test)),
         sentence=_answer(test, checks),
-        values=(),
-        picture=None,
         checks=checks,
         document=_document(test),
         rows=[{"number": k, "path": file.path, "sha256": file.sha256} for k, file in enumerate(test.files, 1)],

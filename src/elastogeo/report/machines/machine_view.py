@@ -42,7 +42,6 @@ def machine_view(machine: Machine) -> View:
             "The kinematic chain of the machine",
             lambda: _drawn(machine),
         ),
-        checks=(),
         document=document,
         rows=document["axes"],
         tables=(table, *places),

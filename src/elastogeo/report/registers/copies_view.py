@@ -62,13 +62,9 @@ def copies_view(result: KeptCopies) -> View:
     return View(
         kind="Backup",
         title=result.store,
-        subtitle="",
         origin="",
         head=(("Backups go to", result.folder),) if result.folder else (),
         sentence=f"{_last_copy(result)} {_last_check(result)}",
-        values=(),
-        picture=None,
-        checks=(),
         document=document("elastogeo.copies/1", found),
         rows=[{name: value for name, value in entry.items() if name != "wrong"} for entry in entries],
         tables=tuple(table for _, table in named if table.rows),

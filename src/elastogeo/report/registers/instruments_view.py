@@ -81,13 +81,8 @@ def instruments_view(result: KeptInstruments) -> View:
     return View(
         kind="Instruments",
         title=result.store,
-        subtitle="",
         origin=simulated_said(result.simulated),
-        head=(),
         sentence=_answer(result),
-        values=(),
-        picture=None,
-        checks=(),
         document=document(
             "elastogeo.instruments/1",
             {"now": iso_date(result.now), "instruments": entries, "simulated": result.simulated or None},
@@ -150,9 +145,6 @@ def instrument_view(result: InstrumentRecord) -> View:
             ("Machines", listed(one.machines) if one.machines else ""),
         ),
         sentence=f"{_capital(_standing(one, result.now))}.",
-        values=(),
-        picture=None,
-        checks=(),
         document=document("elastogeo.instrument/1", found),
         rows=rows,
         tables=tuple(table for _, table in named if table.rows),

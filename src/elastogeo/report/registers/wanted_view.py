@@ -86,13 +86,8 @@ def settings_view(result: KeptSettings) -> View:
     return View(
         kind="Settings",
         title=result.store,
-        subtitle="",
         origin=simulated_said(result.simulated),
-        head=(),
         sentence=_answer(result),
-        values=(),
-        picture=None,
-        checks=(),
         document=document(
             "elastogeo.settings/1", {"now": iso_date(result.now), "series": entries, "simulated": result.simulated or None}
         ),
@@ -185,8 +180,6 @@ def series_view(result: SeriesRecord) -> View:
             KeyValue("Interval", _entered(one.interval), "days", "between tests"),
             KeyValue("Grace", _entered(one.grace), "days", "that a test may be late"),
         ),
-        picture=None,
-        checks=(),
         document=document("elastogeo.series/1", found),
         rows=rows,
         tables=(*(table for _, table in named if table.rows), fields),

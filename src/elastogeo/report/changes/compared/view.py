@@ -88,13 +88,9 @@ def comparable_view(found: Comparable) -> View:
         title=found.machine,
         subtitle=f"{len(rows)} {'test' if len(rows) == 1 else 'tests'}",
         origin="",
-        head=(),
         sentence="Choose two tests to compare."
         if len(rows) > 1
         else "This machine has one test; a second one is needed to compare.",
-        values=(),
-        picture=None,
-        checks=(),
         document=document("elastogeo.comparable/1", {"machine": found.machine, "tests": entries}),
         rows=entries,
         tables=(Table(("date", "test", "series"), rows, words=(0, 1, 2), name="tests", keys=keys),),

@@ -46,13 +46,9 @@ def campaigns_view(kept: KeptCampaigns) -> View:
         title=kept.machine or "all machines",
         subtitle=f"{count} {'campaign' if count == 1 else 'campaigns'}",
         origin=_origin(kept.campaigns),
-        head=(),
         sentence=f"{count} {'campaign is' if count == 1 else 'campaigns are'} kept{of}."
         if count
         else f"No campaign{of} is kept: a campaign comes in with its tests, by the import of its folder.",
-        values=(),
-        picture=None,
-        checks=(),
         document=document("elastogeo.campaigns-kept/1", {"machine": kept.machine, "campaigns": entries}),
         rows=entries,
         tables=(
@@ -82,8 +78,6 @@ def campaign_view(kept: KeptCampaign) -> View:
         origin=_origin((kept,)),
         head=(("Kept", short_date(kept.made_at)), ("Computed by", f"elastogeo {kept.software}")),
         sentence=(kept.error or f"{_answer(kept)} {attention_sentence(checks)}".rstrip()) + _again(kept),
-        values=(),
-        picture=None,
         checks=checks,
         document=document(
             "elastogeo.campaign-kept/1",

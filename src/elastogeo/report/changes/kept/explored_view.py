@@ -46,11 +46,7 @@ def explored_view(found: Explored) -> View:
         title=found.machine,
         subtitle=f"{found.name}, {date_said(found.date)}",
         origin="" if found.origin == "measured" else f"{found.origin.capitalize()}: {found.from_what}".rstrip(": "),
-        head=(),
         sentence=_answer(found),
-        values=(),
-        picture=None,
-        checks=(),
         document=document(
             "elastogeo.explore/1",
             {

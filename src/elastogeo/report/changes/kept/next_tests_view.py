@@ -51,9 +51,6 @@ def next_tests_view(found: NextTests) -> View:
             ("Instruments", listed(tuple(one.replace("-", " ") for one in found.instruments))),
         ),
         sentence=_answer(found),
-        values=(),
-        picture=None,
-        checks=(),
         document=document(NEXT_SCHEMA, found.document()),
         rows=rows,
         sections=tuple(_card(found.goal, one) for one in found.alternatives),
@@ -207,8 +204,6 @@ def plan_to_do_view(found: PlanToDo) -> View:
         head=tuple(_head(found)),
         sentence=f"{'1 test' if count == 1 else f'{count} tests'}{_takes(plan)}: {plan_standing(plan)}.",
         values=tuple(_values(plan)),
-        picture=None,
-        checks=(),
         document=document(
             TO_DO_SCHEMA,
             {
