@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
+from textwrap import dedent
+from types import ModuleType
 from typing import Annotated
 
 import pytest
 from fastapi import FastAPI, Form
 from fastapi.testclient import TestClient
+from jinja2 import ChoiceLoader, DictLoader
 
 import elastogeo as eg
 from elastogeo.web import Settings, application
+from elastogeo.web import pages as recipe
 from elastogeo.web.answering import Done, Shown
 from elastogeo.web.app import every, with_errors
 from elastogeo.web.asking import ADMINISTRATOR, ANYBODY, ENGINEER, READER, Ask, Visitor
 from elastogeo.web.pages import Pages
+from elastogeo.web.templating import _environment
 
 HOST = "http://127.0.0.1:8347"
 
@@ -62,6 +68,24 @@ def test_every_page_has_a_role_and_the_twins_are_described() -> None:
     routes = [route for pages in every() for route in pages.routes]
     assert len(routes) > 5
     assert {route.openapi_extra["x-role"] for route in routes} <= {ANYBODY, READER, ENGINEER, ADMINISTRATOR}  # type: ignore[attr-defined]
+
+
+def test_the_page_of_the_recipe_works_as_it_stands(history: eg.History, monkeypatch: pytest.MonkeyPatch) -> None:
+    python, template = re.findall(r"::\n\n((?:    .*\n|\n)+)", recipe.__doc__ or "")
+    notes = ModuleType("elastogeo.web.care.notes")
+    exec(compile(dedent(python), "care/notes.py", "exec"), notes.__dict__)
+    environment = _environment()
+    there = DictLoader({"care/notes.html.j2": dedent(template)})
+    monkeypatch.setattr(environment, "loader", ChoiceLoader([there, environment.loader or there]))
+    monkeypatch.setattr("elastogeo.web.app.every", lambda: [*every(), notes.pages])
+    visit = TestClient(application(Settings(history.store.url, who="A. Miller"), history.store), HOST)
+    done = visit.post("/machines/1/notes", data={"note": "oil <changed>"}, headers={"Origin": HOST})
+    assert done.status_code == 200
+    assert "The note is kept." in done.text
+    assert "oil &lt;changed&gt;" in done.text
+    assert [row["note"] for row in visit.get("/machines/1/notes.json").json()["events"]] == ["oil <changed>"]
+    assert "oil <changed>" in visit.get("/machines/1/notes.csv").text
+    assert "/machines/{key}/notes.csv" in visit.get("/openapi.json").json()["paths"]
 
 
 @pytest.fixture

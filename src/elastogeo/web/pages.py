@@ -6,13 +6,10 @@ page must pass. A complete one, `care/notes.py`::
 
     """The notes on a machine."""
 
-    from typing import Annotated
-
-    from fastapi import Form
-
     from elastogeo.report import view_of
     from elastogeo.web.answering import Done, Shown
     from elastogeo.web.asking import ENGINEER, Ask
+    from elastogeo.web.fields import Why
     from elastogeo.web.pages import Pages
 
     pages = Pages()
@@ -20,14 +17,32 @@ page must pass. A complete one, `care/notes.py`::
 
     @pages.shows("/machines/{key:int}/notes")
     def notes(asked: Ask, key: int) -> Shown:
-        machine = asked.machine(key)
-        return Shown("care/notes.html.j2", view_of(asked.history.machine(machine.name)), context={"key": key})
+        """What was noted of a machine."""
+        found = asked.history.events(asked.machine(key).name, "note")
+        return Shown("care/notes.html.j2", view_of(found), context={"key": key})
 
 
     @pages.acts("/machines/{key:int}/notes", role=ENGINEER)
-    def add_note(asked: Ask, key: int, note: Annotated[str, Form(max_length=2000)]) -> Done:
+    def add_note(asked: Ask, key: int, note: Why) -> Done:
+        """Note something of a machine."""
         asked.history.add_event("note", note, machine=asked.machine(key).name)
         return Done(f"/machines/{key}/notes", "The note is kept.")
+
+and its template, `templates/care/notes.html.j2`::
+
+    {% extends "base.html.j2" %}
+    {% import "parts.html.j2" as parts %}
+    {% block title %}Notes · elastogeo{% endblock %}
+    {% block main %}
+    <h1>Notes of {{ view.title }}</h1>
+    {{ parts.answer(view) }}
+    {% for table in view.tables %}{{ parts.table(table) }}{% endfor %}
+    {% if visitor.may("engineer") %}
+    <form method="post" action="{{ url("/machines/%d/notes" % key) }}">
+    <label>Note <textarea name="note" required></textarea></label> <button>Keep it</button>
+    </form>
+    {% endif %}
+    {% endblock %}
 
 What the contract asks:
 
