@@ -124,7 +124,9 @@ def _fenced(text: str) -> str:
     ):
         found = list(block)
         if code and any(found):
-            found = ["", "```python", *textwrap.dedent("\n".join(found)).strip("\n").splitlines(), "```", ""]
+            code_lines = textwrap.dedent("\n".join(found)).strip("\n").splitlines()
+            language = "jinja" if code_lines[0].startswith("{") else "python"
+            found = ["", f"```{language}", *code_lines, "```", ""]
         lines.extend(found)
     return "\n".join(lines)
 
