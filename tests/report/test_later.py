@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 from elastogeo.changes import FleetPart, Trend
-from elastogeo.report import view_of
+from elastogeo.report import pdf_page, view_of
 from elastogeo.report.changes.fleets import part_view
 from elastogeo.report.later import Later, LaterRows
 from tests.report.changes.cases import guideway
@@ -45,3 +45,7 @@ def test_a_trend_says_its_points_as_rows_too():
     view = view_of(Trend(guideway(), ""))
     assert list(view.rows) == view.document["chart"]["points"]
     assert len(view.rows) == len(guideway().series)
+
+
+def test_what_is_made_later_is_a_report_for_the_file_too():
+    assert pdf_page(view_of(guideway())).startswith(b"%PDF-")

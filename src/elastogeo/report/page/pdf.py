@@ -57,8 +57,8 @@ def pdf_page(view: View, figures: Mapping[str, bytes] | None = None) -> bytes:
 
 
 def _data(view: View) -> dict[str, Any]:
-    """The view as JSON for the template, without what draws its pictures and without its own document."""
-    bare = replace(view, document={}, picture=None, sections=(), scene=None)
+    """The view as JSON for the template, without what draws its pictures, and without its own document and rows."""
+    bare = replace(view, document={}, rows=(), picture=None, sections=(), scene=None)
     pictures = {name: {"caption": p.caption, "alternative": p.alternative} for name, p in view.pictures.items()}
     return {
         **asdict(bare),
