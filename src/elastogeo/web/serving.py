@@ -110,7 +110,10 @@ class _Worker:
     """The process that does what takes long; it is started again when it dies."""
 
     def __init__(self, settings: Settings) -> None:
-        self._command = [sys.executable, "-m", "elastogeo", "history", "work", "--store", str(settings.store), "--attached"]
+        self._command = [sys.executable, "-m", "elastogeo", "history", "work", "--attached"]
+        self._given = {**os.environ, "ELASTOGEO_STORE": str(settings.store)}  # its command everybody on the computer sees
+        if settings.files is not None:
+            self._given["ELASTOGEO_FILES"] = str(settings.files)
         self._end = threading.Event()
         self._process = self._started()
         threading.Thread(target=self._watch, daemon=True).start()
@@ -131,4 +134,4 @@ class _Worker:
 
     def _started(self) -> subprocess.Popen[bytes]:
         """A worker that ends when this program does, however that ends: its standard input ends then."""
-        return subprocess.Popen(self._command, stdin=subprocess.PIPE)
+        return subprocess.Popen(self._command, stdin=subprocess.PIPE, env=self._given)

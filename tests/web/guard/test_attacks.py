@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import os
+import subprocess
+import threading
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from datetime import timedelta
 from pathlib import Path
 from typing import Any
 
@@ -15,14 +19,17 @@ from starlette.requests import Request
 from elastogeo.errors import InputError, StoreError
 from elastogeo.history import parcels
 from elastogeo.history.parcels import arriving, staging
+from elastogeo.history.people import entering
 from elastogeo.history.store.refusals import in_words
-from elastogeo.web import Settings
+from elastogeo.web import Settings, serving
 from elastogeo.web.asking import ADMINISTRATOR, ENGINEER, READER
 from elastogeo.web.guard.hosts import name_of
 from elastogeo.web.guard.origins import is_own_origin
 from elastogeo.web.people.login import _ours, address_of
+from elastogeo.web.people.throttle import _IN_ALL, FREE_BY_NAME, Throttle, TooOften
 from elastogeo.web.work import receiving
 from tests.web.guard.conftest import HOST, NAME, PASSWORD, PERSONS, Shop
+from tests.web.guard.served import connected, served
 
 DIGITS = "9" * 5000
 """More than Python makes a number of."""
@@ -247,3 +254,71 @@ def test_a_form_of_very_many_parts_is_refused_at_once(own: Shop, monkeypatch: py
     answer = own.browser(ENGINEER).post("/upload", content=part * 100 + b"--q--\r\n", headers=kind)
     assert (answer.status_code, "too many parts" in answer.text) == (400, True)
     assert parcels_of(own) == before
+
+
+def test_strangers_who_guess_do_not_shut_out_who_has_logged_in_from_here_before() -> None:
+    throttle = Throttle(lambda: 0.0)
+    throttle.check("Anna", "192.0.2.1")
+    throttle.succeeded("Anna", "192.0.2.1")
+    for k in range(FREE_BY_NAME):
+        throttle.check(" anna", f"198.51.100.{k}")
+    with pytest.raises(TooOften):
+        throttle.check("Anna", "198.51.100.99")
+    for _ in range(FREE_BY_NAME):  # and there the same limit holds
+        throttle.check("Anna", "192.0.2.1")
+    with pytest.raises(TooOften):
+        throttle.check("Anna", "192.0.2.1")
+
+
+def test_attempts_that_wait_for_each_other_leave_threads_for_pages() -> None:
+    throttle = Throttle()
+    with ExitStack() as held:
+        for _ in range(_IN_ALL):
+            held.enter_context(throttle.attempt())
+        with pytest.raises(TooOften, match="wait 2 s, then try again"), throttle.attempt():
+            pass
+    with throttle.attempt():
+        pass
+
+
+def test_a_full_disk_lets_those_who_are_logged_in_look(own: Shop, monkeypatch: pytest.MonkeyPatch) -> None:
+    """When somebody was seen last is kept now and then; where it cannot be, the page comes all the same."""
+
+    def full(*_: object) -> None:
+        raise StoreError("h.db: there is no room on the disk")
+
+    monkeypatch.setattr(entering, "touch", full)
+    monkeypatch.setattr(entering, "TOUCH", timedelta(seconds=-1))
+    assert own.browser(READER).get("/").status_code == 200
+
+
+def test_no_command_says_where_the_history_is_and_with_which_password(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whoever is logged in on the server sees the commands of all programs."""
+    started: list[tuple[list[str], dict[str, str]]] = []
+
+    class Process:
+        def __init__(self, command: list[str], stdin: int, env: dict[str, str]) -> None:
+            del stdin
+            started.append((command, env))
+
+        def wait(self, _: float = 0.0) -> None:
+            threading.Event().wait()
+
+    monkeypatch.setattr(subprocess, "Popen", Process)
+    serving._Worker(Settings("postgresql://elastogeo:hush@server/shop", files="/srv/files"))
+    command, given = started[0]
+    assert "hush" not in " ".join(command)
+    assert (given["ELASTOGEO_STORE"], given["ELASTOGEO_FILES"]) == ("postgresql://elastogeo:hush@server/shop", "/srv/files")
+
+
+def test_what_is_no_request_is_refused_with_the_headers_of_every_answer(shop: Shop) -> None:
+    with served(shop.app) as port, connected(port) as connection:
+        connection.sendall(b"GET /\x00 HTTP/1.1\r\nHost: shop.example\r\n\r\n")
+        came = connection.recv(65_536).decode()
+    assert came.startswith("HTTP/1.1 400 ")
+    for name in (
+        "content-security-policy: default-src 'none'",
+        "x-content-type-options: nosniff",
+        "cache-control: no-store",
+    ):
+        assert name in came

@@ -19,6 +19,8 @@ IDLE, ABSOLUTE = timedelta(hours=12), timedelta(days=7)
 TOUCH = timedelta(minutes=5)
 """How old it may be when somebody was seen last: not every page writes."""
 _FORGET = timedelta(days=90)
+_PATIENCE = 0.25
+"""Seconds that it waits for its turn to keep who was here: the next page does it as well."""
 _BYTES = 32
 
 
@@ -47,7 +49,7 @@ def begin(connection: Connection, person: int) -> str:
 
 def touch(store: Store, key: int) -> None:
     """Keep that somebody was here just now."""
-    with write(store) as connection:
+    with write(store, _PATIENCE) as connection:
         connection.execute(update(session).where(session.c.id == key).values(seen_at=now()))
 
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import asyncio
 from typing import Any
 
+import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from elastogeo.web.guard.faults import ALWAYS, CONFINED
 from elastogeo.web.guard.limits import Limits
 
 _PATIENCE = Limits().patience
@@ -33,6 +35,15 @@ class Connection(H11Protocol):
         """Wait for nothing."""
         self._stop()
         super().connection_lost(exc)
+
+    def send_400_response(self, msg: str) -> None:
+        """Refuse what is no request, with the headers that every answer has."""
+        said = {"content-type": "text/plain; charset=utf-8", "content-security-policy": CONFINED, **ALWAYS}
+        lines = [(name.lower().encode(), value.encode()) for name, value in said.items()]
+        lines += [(b"cache-control", b"no-store"), (b"connection", b"close")]
+        for event in (h11.Response(status_code=400, headers=lines), h11.Data(data=msg.encode("ascii")), h11.EndOfMessage()):
+            self.transport.write(self.conn.send(event) or b"")
+        self.transport.close()
 
     def _stop(self) -> None:
         if self._late is not None:

@@ -74,9 +74,10 @@ def tried(asked: Asked, name: str, password: str) -> str | None:
     TooOften
     """
     throttle, address = throttle_of(asked.request), address_of(asked.request)
-    throttle.check(name, address)
-    with throttle.comparing:
-        secret = log_in(asked.history.store, name, password)
+    with throttle.attempt():
+        throttle.check(name, address)
+        with throttle.comparing:
+            secret = log_in(asked.history.store, name, password)
     if secret is not None:
         throttle.succeeded(name, address)
     return secret
