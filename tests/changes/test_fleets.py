@@ -21,6 +21,7 @@ from elastogeo.changes import (
     fleet_state,
     judge,
     machine_row,
+    machine_shown,
     machine_state,
 )
 from tests.changes.simulated_series import baseline_of, series_of, stepped
@@ -49,6 +50,18 @@ def test_a_machine_is_in_the_worst_state_of_its_series() -> None:
     assert found.state == ALARM
     assert [one.state for one in found.series] == [ALARM, SUSPECT, STEADY]
     assert machine_state("M", []).state == NO_BASELINE
+
+
+def test_a_series_without_a_baseline_says_nothing_of_those_that_are_watched() -> None:
+    """A campaign adds circles that nobody goes on to watch."""
+    once, watched = verdict(NO_BASELINE), verdict(STEADY)
+    found = machine_state("M", [once, watched])
+    assert found.state == STEADY
+    assert [one.state for one in found.series] == [STEADY, NO_BASELINE]
+    rows = [machine_row(once), machine_row(watched)]
+    for given in (rows, rows[::-1]):
+        assert [row.state for row in fleet_state(given, LAST).machines] == [STEADY]
+        assert [row.state for row in machine_shown("M", [], given, LAST).rows] == [STEADY, NO_BASELINE]
 
 
 def test_an_overdue_test_is_worse_than_steady_and_no_alarm() -> None:

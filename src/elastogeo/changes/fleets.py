@@ -198,14 +198,14 @@ def states_of(row: MachineRow) -> tuple[str, ...]:
 
 def machine_state(machine: str, verdicts: Iterable[ChangeVerdict]) -> MachineState:
     """A machine from the verdicts of its series; when a test is due, and what became of an alarm, they say themselves."""
-    ordered = tuple(sorted(verdicts, key=lambda one: (_rank(one.state), one.since or 0.0, one.series.name)))
+    ordered = tuple(sorted(verdicts, key=lambda one: (_of_one(one.state), one.since or 0.0, one.series.name)))
     late = {one.series.name: one.due.overdue for one in ordered if one.due is not None and one.due.is_late}
     states = [*(one.state for one in ordered), *([OVERDUE] if late else [])]
     opened = [one.alarm for one in ordered if one.alarm is not None]
     return MachineState(
         machine=machine,
         series=ordered,
-        state=min(states, key=_rank, default=NO_BASELINE),
+        state=min(states, key=_of_one, default=NO_BASELINE),
         overdue=late,
         open_alarms=len(opened),
         held_by=next((alarm.held_by for alarm in opened if alarm.held_by), ""),
@@ -224,11 +224,11 @@ def machine_shown(machine: str, verdicts: Iterable[ChangeVerdict], rows: Iterabl
         Of all its series.
     now : float [d]
     """
-    every = tuple(sorted((_at(row, now) for row in rows), key=_order))
+    every = tuple(sorted((_at(row, now) for row in rows), key=_order_of_one))
     return MachineState(
         machine=machine,
         series=tuple(verdicts),
-        state=min((row.state for row in every), key=_rank, default=NO_BASELINE),
+        state=every[0].state if every else NO_BASELINE,
         overdue={row.series: row.overdue for row in every if row.overdue > 0},
         open_alarms=sum(row.open_alarms for row in every),
         held_by=next((row.held_by for row in every if row.held_by), ""),
@@ -307,7 +307,7 @@ def fleet_state(rows: Iterable[MachineRow], now: float, instruments: Sequence[In
         if known is None:
             worst[row.machine] = current
         else:
-            shown = min(known, current, key=_order)
+            shown = min(known, current, key=_order_of_one)
             worst[row.machine] = replace(shown, open_alarms=known.open_alarms + current.open_alarms)
     machines = tuple(sorted(worst.values(), key=_order))
     counts = {state: sum(row.state == state for row in machines) for state in MACHINE_STATES}
@@ -327,6 +327,16 @@ def _at(row: MachineRow, now: float) -> MachineRow:
 def _order(row: MachineRow) -> tuple[int, float, str]:
     """The worst first; of one state the longest in it first."""
     return _rank(row.state), row.since if row.since is not None else np.inf, row.machine
+
+
+def _order_of_one(row: MachineRow) -> tuple[tuple[bool, int], tuple[int, float, str]]:
+    """The same for the series of one machine."""
+    return _of_one(row.state), _order(row)
+
+
+def _of_one(state: str) -> tuple[bool, int]:
+    """Among the series of one machine: one without a baseline is not watched, and says nothing of those that are."""
+    return state == NO_BASELINE, _rank(state)
 
 
 def _rank(state: str) -> int:

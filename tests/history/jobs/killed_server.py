@@ -38,6 +38,8 @@ from tests.web.browsing import free_port
 HEADERS = {"Accept": "application/json", "Content-Type": "application/zip"}
 FORM = {"Accept": "application/json", "Content-Type": "application/x-www-form-urlencoded"}
 MACHINE = "Mill 3"
+STILL = 60.0
+"""Seconds in which nothing changes, after which nothing will."""
 
 
 class Client:
@@ -232,11 +234,13 @@ def main() -> None:
         at_the_end = len(client.imports)
 
         def until_over() -> None:
-            until = time.monotonic() + 60 + 2 * kills
-            while time.monotonic() < until:
-                over = all(state not in ("waiting", "running") for _, state, _ in states(history).values())
-                if over and len(client.imports) == len(parcels):
+            found, until = None, 0.0
+            while True:
+                before, found = found, (states(history), len(client.imports))
+                over = all(state not in ("waiting", "running") for _, state, _ in found[0].values())
+                if (over and found[1] == len(parcels)) or (found == before and time.monotonic() > until):
                     return
+                until = until if found == before else time.monotonic() + STILL
                 time.sleep(0.1)
 
         trial(history, app, client, until_over, [0, 1])

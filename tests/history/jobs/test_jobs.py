@@ -276,7 +276,7 @@ def test_the_command_does_what_waits_and_ends_with_the_program_that_started_it(t
     command = [sys.executable, "-m", "elastogeo", "history", "work", "--store", str(url)]
     with subprocess.Popen([*command, "--attached"], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL) as attached:
         attached.stdin.close()
-        assert attached.wait(20) == 0
+        assert attached.wait(60) == 0
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True) as alone:
         with write(store) as connection:
             connection.execute(job.insert().values(kind="cook", asked={}, state="waiting", made_at=rows.now()))
@@ -285,4 +285,4 @@ def test_the_command_does_what_waits_and_ends_with_the_program_that_started_it(t
         assert gives_way in (running.NICE, 19 - os.getpriority(os.PRIO_PROCESS, 0)), "pages go first; 19 is the most"
         assert "failed: there is no job of the kind 'cook'" in next(alone.stdout)
         alone.send_signal(signal.SIGTERM)
-        assert alone.wait(20) == 0
+        assert alone.wait(60) == 0

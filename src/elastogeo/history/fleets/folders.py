@@ -8,9 +8,11 @@ from pathlib import Path
 
 from elastogeo.formats import Simulation, simulate
 from elastogeo.history.fleets.stories import Story
+from elastogeo.machine import AxisCommands
 from elastogeo.observe import Imperfection
 
 FROM_WHAT = "a test of the demo fleet; nothing was measured"
+IMPERFECT = Imperfection(noise=1e-4, resolution=1e-4, eccentricity=5e-4, force_scatter=0.002)
 FORCES = (50, 250, 500)
 READINGS = 90
 SCHEMA = "elastogeo.simulation/1"
@@ -83,6 +85,17 @@ def write_test(folder: Path, story: Story, at: datetime, temperature: float, val
     )
     runs = (_RUN.format(force=force, sense=sense) for force in FORCES for sense in ("cw", "ccw"))
     (folder / "test.toml").write_text(text + "".join(runs), encoding="utf-8")
-    imperfect = Imperfection(noise=1e-4, resolution=1e-4, eccentricity=5e-4, force_scatter=0.002)
-    simulate(folder, Simulation(SCHEMA, values, seed, READINGS, exact=False, imperfection=imperfect), write=True)
+    read_by_instrument(folder, values, seed)
     return folder
+
+
+def read_by_instrument(
+    folder: Path,
+    values: Mapping[str, float],
+    seed: int,
+    imperfection: Imperfection = IMPERFECT,
+    centre: AxisCommands | None = None,
+) -> None:
+    """Write the readings of the runs that a test names, simulated; polynomials count from `centre`, or the test's own."""
+    truth = Simulation(SCHEMA, values, seed, READINGS, exact=False, imperfection=imperfection, centre=centre or {})
+    simulate(folder, truth, write=True)

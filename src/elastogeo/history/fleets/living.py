@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 from sqlalchemy import Table, func, select
 
-from elastogeo.changes import SUSPECT
+from elastogeo.changes import NO_BASELINE, SUSPECT
+from elastogeo.history.fleets.commissioning import CIRCLES, commission
 from elastogeo.history.fleets.folders import write_test
 from elastogeo.history.fleets.stories import (
     EVERY,
@@ -30,6 +31,8 @@ from elastogeo.history.store.schema import baseline, event, machine, series, tes
 YEARS = 3.0
 BASELINE = 10
 """Tests after which a person sets the baseline."""
+COMMISSIONED = timedelta(days=3)
+"""Before the first test of the fleet."""
 LAST = timedelta(days=10)
 """Before the day it is lived to, at least: all its tests are old, and nobody is told of what they show."""
 
@@ -74,15 +77,25 @@ def live(history: History, until: datetime, stories: tuple[Story, ...] = FLEET, 
         After each test.
     """
     begin = (until.astimezone(UTC) - LAST - timedelta(days=years * YEAR)).replace(hour=6, minute=0, second=0, microsecond=0)
-    for story in stories:
-        history.add_machine(story.name, kind=story.model, serial=story.serial, place=story.place)
+    keys = {
+        story.name: history.add_machine(story.name, kind=story.model, serial=story.serial, place=story.place).key
+        for story in stories
+    }
     for bar in sorted({story.bar for story in stories}):
         history.add_instrument(bar, kind="loaded-ball-bar", calibrated=f"{begin - timedelta(days=30):%Y-%m-%d}")
     times = [(k * EVERY, number) for k in range(int(years * YEAR / EVERY) + 1) for number in range(len(stories))]
     times = [(day, number) for day, number in times if day <= stories[number].until]
+    commissioned = [story for story in stories if story.commissioned]
+    before = CIRCLES * len(commissioned)
+    of = before + len(times)
     recalibrated = False
     with tempfile.TemporaryDirectory() as folder:
-        for done, (day, number) in enumerate(times):
+        for k, story in enumerate(commissioned):
+            at = begin - COMMISSIONED
+            measured = commission(history, story, keys[story.name], at, Path(folder))
+            for done, _ in enumerate(measured, CIRCLES * k + 1):
+                yield Lived(story.name, at, NO_BASELINE, done, of)
+        for done, (day, number) in enumerate(times, before + 1):
             if day >= RECALIBRATED_AFTER and not recalibrated:
                 on = begin + timedelta(days=RECALIBRATED_AFTER)
                 history.add_instrument(RECALIBRATED, calibrated=f"{on:%Y-%m-%d}", certificate="simulated")
@@ -90,9 +103,7 @@ def live(history: History, until: datetime, stories: tuple[Story, ...] = FLEET, 
             at = begin + timedelta(days=day, hours=number)
             if _is_past(history, stories[number].name, at):
                 continue
-            yield Lived(
-                stories[number].name, at, _tested(history, Path(folder), stories[number], day, at), done + 1, len(times)
-            )
+            yield Lived(stories[number].name, at, _tested(history, Path(folder), stories[number], day, at), done, of)
 
 
 def _tested(history: History, folder: Path, story: Story, day: float, at: datetime) -> str:
@@ -107,6 +118,7 @@ def _tested(history: History, folder: Path, story: Story, day: float, at: dateti
         write_test(name, story, at + timedelta(minutes=30 * attempt), warm, values, 1000 * number + attempt)
         added = history.add(name)
         assert added.verdict is not None
+        assert added.imported is not None
         state = added.verdict.state
         if not added.verdict.steps or added.verdict.steps[-1].state != SUSPECT:
             break  # of an old test that nobody repeated the alarm is there at once; that day it was suspect
@@ -114,8 +126,9 @@ def _tested(history: History, folder: Path, story: Story, day: float, at: dateti
     if any(day - EVERY < after <= day for after in struck) and not _noted(history, story.name, event):
         history.add_event("crash", "the spindle ran into a clamp (simulated)", machine=story.name, at=f"{at:%Y-%m-%d}")
     if number + 1 == BASELINE and not _noted(history, story.name, baseline):
-        history.set_interval(story.name, EVERY, why="tests every four weeks")
-        history.set_baseline(story.name, why="the first ten tests after commissioning", first=BASELINE)
+        monthly = added.imported.series_name
+        history.set_interval(story.name, EVERY, monthly, why="tests every four weeks")
+        history.set_baseline(story.name, monthly, why="the first ten tests after commissioning", first=BASELINE)
     return state
 
 

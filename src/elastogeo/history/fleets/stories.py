@@ -36,6 +36,8 @@ SEATED_BADLY = 0.03
 """Share of tests in which a ball is not seated: the bar then gives way as it is loaded."""
 GIVES_WAY = 0.08
 """Relative: by which the machine then seems softer in x."""
+OF_THE_TABLE = 0.4
+"""Share of the compliance of a direction that is that of the swivelling table."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +73,8 @@ class Story:
         Share of its tests in which a ball is not seated.
     until : float [d]
         When its tests end, if they end before the fleet's do: a machine whose next test is overdue.
+    commissioned : bool
+        Whether a campaign over its whole workspace was measured before its first test.
     """
 
     name: str
@@ -82,6 +86,7 @@ class Story:
     faults: tuple[Fault, ...] = ()
     seated_badly: float = 0.0
     until: float = field(default=float("inf"))
+    commissioned: bool = False
 
 
 RECALIBRATED = "B-202"
@@ -96,7 +101,7 @@ FLEET = (
     Story("Huron KX8 no. 1", "huron_kx8", "K-0801", "hall 2", RECALIBRATED, HURON),
     Story("Huron KX8 no. 2", "huron_kx8", "K-0802", "hall 2", RECALIBRATED, HURON, seated_badly=SEATED_BADLY),
     Story("Huron KX8 no. 3", "huron_kx8", "K-0803", "hall 2", RECALIBRATED, HURON, until=2.85 * YEAR),
-    Story("Hermle C50 no. 1", "hermle_c50", "H-5011", "hall 1", "B-101", HERMLE),
+    Story("Hermle C50 no. 1", "hermle_c50", "H-5011", "hall 1", "B-101", HERMLE, commissioned=True),
     Story("Hermle C50 no. 2", "hermle_c50", "H-5012", "hall 1", "B-101", HERMLE, (Fault("collision", 2.0 * YEAR),)),
     Story("Hermle C50 no. 3", "hermle_c50", "H-5013", "hall 1", "B-101", HERMLE, (Fault("nut", 1.6 * YEAR),)),
     Story("Hermle C50 no. 4", "hermle_c50", "H-5014", "hall 1", "B-101", HERMLE, (Fault("guideway", 1.3 * YEAR),)),
@@ -168,4 +173,21 @@ def truth(story: Story, day: float, warm: float, seated: bool, random: np.random
         "E_XY2": (-3e-3 - 6e-3 * loss + STRAIGHTNESS_SCATTER * random.normal()) / 150**2,
         "B_XX": 1.5e-3 * backlash_x + worn(story, day) + BACKLASH_SCATTER * random.normal(),
         "B_YY": 1.2e-3 * backlash_y + BACKLASH_SCATTER * random.normal(),
+    }
+
+
+def everywhere(monthly: Mapping[str, float]) -> Mapping[str, float]:
+    """True parameters where the monthly test does not go either: to that test it is the same machine.
+
+    With the table level and unturned, what it gives way adds to what the axis below it does.
+    """
+    return {
+        **monthly,
+        "C_XXX": (1 - OF_THE_TABLE) * monthly["C_XXX"],
+        "C_XXC": OF_THE_TABLE * monthly["C_XXX"],
+        "C_YYY": (1 - OF_THE_TABLE) * monthly["C_YYY"],
+        "C_YYA": OF_THE_TABLE * monthly["C_YYY"],
+        "C_ZZZ": 3.1e-5,
+        "C_AZY": 1.5e-8,
+        "E_ZZ1": 1.5e-5,
     }
