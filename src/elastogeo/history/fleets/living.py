@@ -111,7 +111,7 @@ def _tested(history: History, folder: Path, story: Story, day: float, at: dateti
     number = int(day / EVERY)
     seed = [number, *story.serial.encode()]
     chance, warm = np.random.default_rng([1, *seed]), temperature(day, np.random.default_rng([2, *seed]))
-    state = ""
+    state = monthly = ""
     for attempt in range(2):
         values = truth(story, day, warm, chance.random() >= story.seated_badly, np.random.default_rng([3, *seed]))
         name = folder / f"{story.serial}-{number:02d}-{attempt + 1}"
@@ -119,14 +119,13 @@ def _tested(history: History, folder: Path, story: Story, day: float, at: dateti
         added = history.add(name)
         assert added.verdict is not None
         assert added.imported is not None
-        state = added.verdict.state
+        state, monthly = added.verdict.state, added.imported.series_name
         if not added.verdict.steps or added.verdict.steps[-1].state != SUSPECT:
             break  # of an old test that nobody repeated the alarm is there at once; that day it was suspect
     struck = [fault.after for fault in story.faults if fault.kind == "collision"]
     if any(day - EVERY < after <= day for after in struck) and not _noted(history, story.name, event):
         history.add_event("crash", "the spindle ran into a clamp (simulated)", machine=story.name, at=f"{at:%Y-%m-%d}")
     if number + 1 == BASELINE and not _noted(history, story.name, baseline):
-        monthly = added.imported.series_name
         history.set_interval(story.name, EVERY, monthly, why="tests every four weeks")
         history.set_baseline(story.name, monthly, why="the first ten tests after commissioning", first=BASELINE)
     return state
