@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from elastogeo.changes import KeptJob, KeptJobs
+from elastogeo.changes.records import DONE, RUNNING, WAITING
 from elastogeo.errors import InputError
 from elastogeo.history.intake.machines import machines
 from elastogeo.history.jobs import rows
+from elastogeo.history.parcels.confirming import ToConfirm, confirmed, to_confirm
 from elastogeo.history.store import Store, now, read
+
+_IMPORTS = 100
+"""The last ones, among which the import of a parcel is looked for."""
 
 
 class Tasks:
@@ -61,6 +66,41 @@ class Tasks:
                     "the simulated fleet is made in an empty history only, so that it never stands beside measured tests"
                 )
         return self.put_job("demo", {"until": f"{now():%Y-%m-%dT00:00:00+00:00}"})
+
+    @staticmethod
+    def to_confirm(looked: KeptJob) -> ToConfirm | None:
+        """What a person is to say of what a look has found; None of a job that is no look, or is not done."""
+        return to_confirm(looked)
+
+    def put_import(self, number: int, said: Sequence[tuple[str, str, str]], date: str = "") -> int:
+        """Ask a worker to import the tests that a look has found.
+
+        Parameters
+        ----------
+        number : int
+            Of the job that looked.
+        said : sequence of (serial, machine, name)
+            Of the tests that say this serial number the machine, or the name of a new one.
+        date : str
+            Of the tests that do not say theirs.
+
+        Returns
+        -------
+        int
+            The number of the job; of the one that imports, or imported, the same, for a form may be sent twice.
+
+        Raises
+        ------
+        InputError
+            If nothing was found, a machine or a date is missing, or there is no such machine.
+        """
+        found = to_confirm(self.job(number))
+        if found is None:
+            raise InputError(f"job {number} has found no tests; upload them, and wait until they were looked at")
+        for one in self.jobs(last=_IMPORTS, kind="import").jobs:
+            if one.asked.get("parcel") == found.parcel and one.state in (WAITING, RUNNING, DONE):
+                return one.key
+        return self.put_job("import", confirmed(self.store, found, said, date, self.who))
 
     def job(self, number: int) -> KeptJob:
         """A job as it stands.

@@ -103,6 +103,7 @@ def test_a_test_without_a_date_is_imported_on_the_day_that_is_said(
     work(history)
     form = {"serial": "", "named": "Mill 3", "machine": ""}
     assert "give its date" in browser.post("/jobs/1/import", data=form).text
+    assert history.machines() == ()  # what is refused makes nothing
     browser.post("/jobs/1/import", data={**form, "date": "2026-03-05"})
     work(history)
     assert browser.get("/jobs/2.json").json()["result"]["tests"][0]["at"].startswith("2026-03-05")

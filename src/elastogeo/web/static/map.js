@@ -74,64 +74,6 @@
   };
   const px = (value) => String(Math.round(value * 10) / 10);
 
-  /** Draw the field into the picture: cells of colour, contours with their numbers, dots and marks. */
-  function draw(svg, section, found) {
-    const frame = section.frame, [xs, ys] = section.along_mm, n = xs.length, m = ys.length;
-    const wide = frame.width - frame.left - frame.right;
-    const across = (v) => frame.left + ((v - xs[0]) / (xs[n - 1] - xs[0])) * wide;
-    const up = (v) => frame.top + ((ys[m - 1] - v) / (ys[m - 1] - ys[0])) * frame.height;
-    const levels = levelsOf(found.stiffness, frame.levels);
-    const colour = (v) => {
-      if (!isNumber(v)) return "untold";
-      if (!levels.length) return `s${frame.colours / 2}`;
-      return `s${Math.round((levels.filter((level) => level <= v).length * (frame.colours - 1)) / levels.length)}`;
-    };
-    for (const old of svg.querySelectorAll("[class^='f-s'],.f-untold,.p-contour,.f-contour,.f-paper,.f-ink")) {
-      if (old.tagName !== "text" || old.classList.contains("f-contour")) old.remove();
-    }
-    const first = svg.firstChild;
-    const add = (tag, attributes, text) => {
-      const element = document.createElementNS(SVG, tag);
-      for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-      if (text) element.textContent = text;
-      svg.insertBefore(element, first);
-    };
-    const paths = {};
-    const s = frame.cells;
-    for (let j = 0; j < (m - 1) * s; j += 1) {
-      const top = px(up(edge(ys, (j + 1) / s))), low = px(up(edge(ys, j / s)));
-      let begin = 0, kind = null;
-      for (let i = 0; i <= (n - 1) * s; i += 1) {
-        const here = i < (n - 1) * s ? colour(between(found.stiffness, m, n, (i + 0.5) / s, (j + 0.5) / s)) : "";
-        if (here === kind) continue;
-        if (kind) {
-          const a = px(across(edge(xs, begin / s))), b = px(across(edge(xs, i / s)));
-          paths[kind] = `${paths[kind] || ""}M${a} ${low}H${b}V${top}H${a}Z`;
-        }
-        [begin, kind] = [i, here];
-      }
-    }
-    for (const [kind, d] of Object.entries(paths)) add("path", { class: `f-${kind}`, d });
-    found.resting.forEach((rests, k) => {
-      if (rests) add("circle", { class: "f-paper", cx: px(across(xs[Math.floor(k / m)])), cy: px(up(ys[k % m])), r: 1.8 });
-    });
-    for (const level of levels) {
-      const pieces = contour(found.stiffness, n, m, frame.lines, level);
-      if (!pieces.length) continue;
-      const placed = pieces.map((piece) => piece.map(([a, b]) => [across(edge(xs, a)), up(edge(ys, b))]));
-      add("path", { class: "p-contour", d: placed.map(([a, b]) => `M${px(a[0])} ${px(a[1])}L${px(b[0])} ${px(b[1])}`).join("") });
-      const [x, y] = placed[Math.floor(placed.length / 2)][0];
-      add("text", { class: "f-contour", x: px(x), y: px(y + 4), "text-anchor": "middle" }, number(level, 6));
-    }
-    const known = found.stiffness.map((v, k) => [v, k]).filter(([v]) => isNumber(v)).sort((a, b) => a[0] - b[0]);
-    for (const [one, size] of known.length ? [[known[0], 5], [known[known.length - 1], -5]] : []) {
-      const x = across(xs[Math.floor(one[1] / m)]), y = up(ys[one[1] % m]);
-      const d = `M${px(x)} ${px(y + 1.2 * size)}L${px(x + 5)} ${px(y - size)}L${px(x - 5)} ${px(y - size)}Z`;
-      add("path", { class: "f-ink", d });
-    }
-    return known;
-  }
-
   /** Straight pieces where the field is at a level. */
   function contour(values, n, m, steps, level) {
     const rows = (n - 1) * steps + 1, columns = (m - 1) * steps + 1, pieces = [];
@@ -153,6 +95,84 @@
       }
     }
     return pieces;
+  }
+
+  /** What the parts of the picture share: the field, where its places lie [px], the colour of a value. */
+  function chartOf(section, found) {
+    const frame = section.frame, [xs, ys] = section.along_mm, n = xs.length, m = ys.length;
+    const wide = frame.width - frame.left - frame.right, levels = levelsOf(found.stiffness, frame.levels);
+    return {
+      frame, xs, ys, n, m, levels, values: found.stiffness,
+      across: (v) => frame.left + ((v - xs[0]) / (xs[n - 1] - xs[0])) * wide,
+      up: (v) => frame.top + ((ys[m - 1] - v) / (ys[m - 1] - ys[0])) * frame.height,
+      colour: (v) => {
+        if (!isNumber(v)) return "untold";
+        if (!levels.length) return `s${frame.colours / 2}`;
+        return `s${Math.round((levels.filter((level) => level <= v).length * (frame.colours - 1)) / levels.length)}`;
+      },
+    };
+  }
+
+  /** The outlines of the cells, one path a colour. */
+  function cells({ frame, xs, ys, n, m, values, across, up, colour }) {
+    const paths = {}, s = frame.cells;
+    for (let j = 0; j < (m - 1) * s; j += 1) {
+      const top = px(up(edge(ys, (j + 1) / s))), low = px(up(edge(ys, j / s)));
+      let begin = 0, kind = null;
+      for (let i = 0; i <= (n - 1) * s; i += 1) {
+        const here = i < (n - 1) * s ? colour(between(values, m, n, (i + 0.5) / s, (j + 0.5) / s)) : "";
+        if (here === kind) continue;
+        if (kind) {
+          const a = px(across(edge(xs, begin / s))), b = px(across(edge(xs, i / s)));
+          paths[kind] = `${paths[kind] || ""}M${a} ${low}H${b}V${top}H${a}Z`;
+        }
+        [begin, kind] = [i, here];
+      }
+    }
+    return paths;
+  }
+
+  function drawContours({ frame, xs, ys, n, m, levels, values, across, up }, add) {
+    for (const level of levels) {
+      const pieces = contour(values, n, m, frame.lines, level);
+      if (!pieces.length) continue;
+      const placed = pieces.map((piece) => piece.map(([a, b]) => [across(edge(xs, a)), up(edge(ys, b))]));
+      add("path", { class: "p-contour", d: placed.map(([a, b]) => `M${px(a[0])} ${px(a[1])}L${px(b[0])} ${px(b[1])}`).join("") });
+      const [x, y] = placed[Math.floor(placed.length / 2)][0];
+      add("text", { class: "f-contour", x: px(x), y: px(y + 4), "text-anchor": "middle" }, number(level, 6));
+    }
+  }
+
+  /** A triangle at a place; its point is below for a size above zero. */
+  function drawMark({ xs, ys, m, across, up }, place, size, add) {
+    const x = across(xs[Math.floor(place / m)]), y = up(ys[place % m]);
+    add("path", { class: "f-ink", d: `M${px(x)} ${px(y + 1.2 * size)}L${px(x + 5)} ${px(y - size)}L${px(x - 5)} ${px(y - size)}Z` });
+  }
+
+  /** Draw the field into the picture; the places where it is known, softest first. */
+  function draw(svg, section, found) {
+    for (const old of svg.querySelectorAll("[class^='f-s'],.f-untold,.p-contour,.f-contour,.f-paper,.f-ink")) {
+      if (old.tagName !== "text" || old.classList.contains("f-contour")) old.remove();
+    }
+    const first = svg.firstChild; // the axes stay, in front of all that is drawn anew
+    const add = (tag, attributes, text) => {
+      const element = document.createElementNS(SVG, tag);
+      for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+      if (text) element.textContent = text;
+      svg.insertBefore(element, first);
+    };
+    const chart = chartOf(section, found), { xs, ys, m, across, up } = chart;
+    for (const [kind, d] of Object.entries(cells(chart))) add("path", { class: `f-${kind}`, d });
+    found.resting.forEach((rests, k) => {
+      if (rests) add("circle", { class: "f-paper", cx: px(across(xs[Math.floor(k / m)])), cy: px(up(ys[k % m])), r: 1.8 });
+    });
+    drawContours(chart, add);
+    const known = found.stiffness.map((v, k) => [v, k]).filter(([v]) => isNumber(v)).sort((a, b) => a[0] - b[0]);
+    if (known.length) {
+      drawMark(chart, known[0][1], 5, add);
+      drawMark(chart, known[known.length - 1][1], -5, add);
+    }
+    return known;
   }
 
   const number = (value, digits) => String(Number(value.toPrecision(digits))).replace("-", "−");
@@ -183,33 +203,37 @@
       document.getElementById("map-needle").setAttribute("d", `M0 0L${px(50 * e[0])} ${px(-50 * e[1])}`);
     }
 
+    /** What the section says along a direction, in the sentences of the server (report/predictions/section_view.py). */
+    function answerOf(way, known, found) {
+      if (!known.length) return `Nothing is known of the stiffness along ${way} in this section: none of these tests tells it, and nothing is guessed.`;
+      const soft = known[0], stiff = known[known.length - 1], spot = ([v, k]) => `${said(v, found.half[k])} N/µm`;
+      if (soft[1] === stiff[1]) return `Along ${way} the stiffness is ${spot(soft)} at ${where(soft[1])}, the only place known here.`;
+      if (stiff[0] - soft[0] < 1e-9 * soft[0]) return `Along ${way} the stiffness is ${spot(soft)} at each of the ${known.length} places known.`;
+      return `Along ${way} the machine is softest, ${spot(soft)}, at ${where(soft[1])}, and stiffest, ${spot(stiff)}, at ${where(stiff[1])}.`;
+    }
+
+    function toldOf(known, found) {
+      const count = known.length - found.resting.filter(Boolean).length, places = found.stiffness.length;
+      return count < places
+        ? `The tests tell it ${count ? `at ${count} of ${places} places` : "at none of the places"} of this section; what is grey was never tested.`
+        : "The tests tell it at every place of this section.";
+    }
+
     function turn() {
       const a = (Number(azimuth.value) * Math.PI) / 180, b = (Number(elevation.value) * Math.PI) / 180;
       const e = [Math.cos(b) * Math.cos(a), Math.cos(b) * Math.sin(a), Math.sin(b)].map((v) => (Math.abs(v) < 1e-12 ? 0 : v));
       const found = fieldOf(section, e), known = draw(svg, section, found);
-      const axis = e.findIndex((v) => Math.abs(v) > 1 - 1e-12);
-      const way = axis >= 0 ? "XYZ"[axis] : `${azimuth.value}° from X to Y, ${elevation.value.replace("-", "−")}° up to Z`;
+      const axis = e.findIndex((v) => Math.abs(v) > 1 - 1e-12), up = `${elevation.value.replace("-", "−")}°`;
+      const way = axis >= 0 ? "XYZ"[axis] : `${azimuth.value}° from X to Y, ${up} up to Z`, answer = answerOf(way, known, found);
       azimuth.nextElementSibling.textContent = `${azimuth.value}°`;
-      elevation.nextElementSibling.textContent = `${elevation.value.replace("-", "−")}°`;
+      elevation.nextElementSibling.textContent = up;
       document.getElementById("map-direction").textContent = `stiffness along ${way}`;
       needle(e);
-      let answer = `Nothing is known of the stiffness along ${way} in this section: none of these tests tells it, and nothing is guessed.`;
-      if (known.length) {
-        const soft = known[0], stiff = known[known.length - 1], spot = ([v, k]) => `${said(v, found.half[k])} N/µm`;
-        answer = `Along ${way} the machine is softest, ${spot(soft)}, at ${where(soft[1])}, and stiffest, ${spot(stiff)}, at ${where(stiff[1])}.`;
-        if (stiff[0] - soft[0] < 1e-9 * soft[0]) answer = `Along ${way} the stiffness is ${spot(soft)} at each of the ${known.length} places known.`;
-        if (soft[1] === stiff[1]) answer = `Along ${way} the stiffness is ${spot(soft)} at ${where(soft[1])}, the only place known here.`;
-      }
       document.getElementById("map-answer").textContent = answer;
       svg.setAttribute("aria-label", answer);
-      const told = document.getElementById("map-told"), resting = found.resting.filter(Boolean).length;
-      if (told && !section.assumed) {
-        const count = known.length - resting, places = found.stiffness.length;
-        told.textContent = count < places
-          ? `The tests tell it ${count ? `at ${count} of ${places} places` : "at none of the places"} of this section; what is grey was never tested.`
-          : "The tests tell it at every place of this section.";
-      }
-      window.elastogeoMap = found;
+      const told = document.getElementById("map-told");
+      if (told && !section.assumed) told.textContent = toldOf(known, found);
+      window.elastogeoMap = found; // for the tests: the numbers that are drawn
     }
 
     const remember = () => {
@@ -229,8 +253,7 @@
         remember();
       });
     }
-    const e = section.direction;
-    needle(e);
+    needle(section.direction);
   }
 
   document.addEventListener("DOMContentLoaded", setUp);

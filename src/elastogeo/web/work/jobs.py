@@ -7,7 +7,6 @@ from elastogeo.report import view_of
 from elastogeo.web.answering import Done, Shown
 from elastogeo.web.asking import ADMINISTRATOR, ENGINEER, Ask, Asked, or_not_found
 from elastogeo.web.pages import Pages
-from elastogeo.web.work.upload import unplaced
 
 pages = Pages()
 ADMINISTRATORS = ("back up", "verify")
@@ -26,13 +25,11 @@ def jobs(asked: Ask) -> Shown:
 def job(asked: Ask, key: int) -> Shown:
     """How far a job is, and what came of it."""
     found = _found(asked, key)
-    looked = found.kind == "look" and found.state == "done" and found.result is not None
+    confirm = asked.history.to_confirm(found)
     context = {
         "job": found,
-        "groups": unplaced(found.result or {}) if looked else [],
-        "to_import": looked and any(not one["known"] for one in (found.result or {})["tests"]),
-        "undated": looked and any(not one["date"] and not one["known"] for one in (found.result or {})["tests"]),
-        "machines": asked.history.machines() if looked else (),
+        "confirm": confirm,
+        "machines": asked.history.machines() if confirm is not None else (),
         "may_act": asked.visitor.may(ENGINEER),
     }
     return Shown("work/job.html.j2", view_of(found), part="work/job_part.html.j2", context=context)
