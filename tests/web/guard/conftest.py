@@ -7,12 +7,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import pytest
-from fastapi.testclient import TestClient
+from httpx2 import Client
 
 import elastogeo as eg
 from elastogeo.history.people import log_in
 from elastogeo.web import Settings, application
 from elastogeo.web.asking import ADMINISTRATOR, ENGINEER, READER
+from tests.web.guard.quick import Quick
 
 NAME = "shop.example"
 HOST = f"http://{NAME}"
@@ -40,17 +41,17 @@ class Shop:
     tokens: dict[str, str] = field(default_factory=dict)
     sessions: dict[str, str] = field(default_factory=dict)
 
-    def browser(self, role: str | None = None, **how: Any) -> TestClient:
+    def browser(self, role: str | None = None, **how: Any) -> Client:
         """A browser in which a person of this role has logged in; without a role, nobody."""
-        found = TestClient(self.app, HOST, headers=OURS, follow_redirects=False, raise_server_exceptions=False, **how)
+        found = Client(transport=Quick(self.app), base_url=HOST, headers=OURS, **how)
         if role is not None:
             found.cookies.set("elastogeo_session", self.sessions[role], domain=NAME)
         return found
 
-    def program(self, token: str | None = None) -> TestClient:
+    def program(self, token: str | None = None) -> Client:
         """A program, with a token if it has one."""
         headers = {"Authorization": f"Bearer {token}"} if token is not None else {}
-        return TestClient(self.app, HOST, headers=headers, follow_redirects=False, raise_server_exceptions=False)
+        return Client(transport=Quick(self.app), base_url=HOST, headers=headers)
 
     def head(self) -> tuple[int, str]:
         """The number and seal of the last row of the audit trail: what anybody writes changes it."""
