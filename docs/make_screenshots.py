@@ -25,7 +25,7 @@ from tests.web.browsing import chromium_or_skip, serving  # noqa: E402
 from tests.web.fleets import DATABASE, make_fleet  # noqa: E402
 
 FOLDER = Path(__file__).with_name("web")
-COLOURS = 96
+COLOURS = 64
 """Of a picture: pages are flat."""
 TALLEST = 1800
 """Pixels that a picture shows of a long page."""

@@ -10,7 +10,7 @@ KEYS = {"tests": "8"}
 """Of each kind of thing the first: the machine in alarm; of tests its last."""
 ASKED = {"/compare": "?a=7&b=8", "/explore": "?test=8", "/search": "?q=Hermle"}
 """What a page is asked with that shows nothing without it."""
-ALSO = ("/machines/2", "/machines/3", "/machines/4", "/tests/24", "/tests/25", "/tests/26", "/tests/27")
+ALSO = ("/machines/2", "/machines/3", "/machines/4", "/machines/4/map", "/tests/24", "/tests/25", "/tests/26", "/tests/27")
 """Other states and other instruments than that of the first."""
 
 

@@ -79,10 +79,11 @@ def _live(history: History, work: Path, tested: Tested, today: datetime) -> None
 
 def _others(history: History, work: Path, today: datetime) -> None:
     """A machine with one test of each other kind, a campaign and a plan."""
-    history.add_machine(VARIED, kind="hermle_c50", serial="M-3", place="hall 1")
+    key = history.add_machine(VARIED, kind="hermle_c50", serial="M-3", place="hall 1").key
     for number, name in enumerate(("static-force", "ball-bar-diagnosis", "ball-roller")):
         history.add(EXAMPLES / name, machine=VARIED, date=f"{today - timedelta(days=40 - number):%Y-%m-%d}")
     _ = list(history.add_all(_campaign(work), machine=VARIED, date=f"{today - timedelta(days=20):%Y-%m-%d}"))
+    history.put_map(key)  # made by the worker of whoever serves it
     plan = eg.plan(eg.read_machine("hermle_c50"), tests=2, count=10)
     history.keep_plan(plan, machine=VARIED, name="spring", due=f"{today + timedelta(days=30):%Y-%m-%d}")
 
