@@ -45,7 +45,6 @@ def workspace_map(
         "bases": asked.history.map_bases(key),
         "job": job,
         "basis": basis or _said(job),
-        "may_act": asked.visitor.may(ENGINEER),
         "chosen": chosen,
         "section": None,
         "planes": (),

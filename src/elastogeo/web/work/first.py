@@ -19,7 +19,7 @@ pages = Pages()
 def first(asked: Ask) -> Shown:
     """Where one begins: a simulated fleet to look at, a test of one's own, a machine."""
     count = len(asked.history.machines())
-    context = {"count": count, "kinds": tuple(shipped_machines()), "may_act": asked.visitor.may(ENGINEER)}
+    context = {"count": count, "kinds": tuple(shipped_machines())}
     return Shown("work/first.html.j2", document={"schema": "elastogeo.first/1", "machines": count}, context=context)
 
 

@@ -30,7 +30,6 @@ def job(asked: Ask, key: int) -> Shown:
         "job": found,
         "confirm": confirm,
         "machines": asked.history.machines() if confirm is not None else (),
-        "may_act": asked.visitor.may(ENGINEER),
     }
     return Shown("work/job.html.j2", view_of(found), part="work/job_part.html.j2", context=context)
 

@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import Form, Query, Response
 
 from elastogeo.changes import KeptJob, NextGoal
+from elastogeo.changes.records import STIFFNESS, TELL
 from elastogeo.errors import ElastogeoError
 from elastogeo.formats import flavours
 from elastogeo.report import simulated_said, view_of
@@ -16,7 +17,8 @@ from elastogeo.web.fields import Why
 from elastogeo.web.pages import Pages
 
 pages = Pages()
-_TELL, _BETWEEN, _STIFFNESS = "tell apart", "between", "stiffness"
+BETWEEN = "between"
+"""A goal of the form alone: two components that are chosen there."""
 
 
 @pages.shows("/plans")
@@ -38,7 +40,6 @@ def one_plan(asked: Ask, number: int) -> Shown:
         "programs": {one.test: one for one in found.programs},
         "flavours": tuple(flavours().values()),
         "machine_key": key,
-        "may_act": asked.visitor.may(ENGINEER),
     }
     return Shown("work/plan.html.j2", view_of(found), context=context)
 
@@ -90,7 +91,6 @@ def new_plan(asked: Ask, key: int, job: Annotated[int | None, Query(ge=1)] = Non
         "knows_stiffness": asked.history.least_compliance(verdicts) is not None,
         "instruments": asked.history.instruments_to_plan(),
         "job": made,
-        "may_act": asked.visitor.may(ENGINEER),
         "origin": next((simulated_said(one.series.simulated) for one in verdicts if one.series.simulated), ""),
     }
     if not done or made is None:
@@ -118,9 +118,9 @@ def ask_for_ways(
     found = asked.machine(key)
     kind, *between = goal.split("|")
     compliance = None
-    if kind == _BETWEEN:
-        kind, between = _TELL, [one, other]
-    if kind == _STIFFNESS:
+    if kind == BETWEEN:
+        kind, between = TELL, [one, other]
+    if kind == STIFFNESS:
         compliance = asked.history.least_compliance(asked.history.machine(found.name).series)
     wanted = NextGoal(kind, tuple(between), percent / 100, compliance)
     number = asked.history.put_plan(key, wanted, minutes, instrument)
