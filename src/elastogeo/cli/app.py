@@ -16,6 +16,7 @@ import typer
 from typer.core import TyperGroup
 
 from elastogeo.cli.doors import Command, doors
+from elastogeo.cli.plain import plain
 from elastogeo.errors import ElastogeoError, UnsupportedError
 from elastogeo.version import VERSION
 
@@ -99,5 +100,5 @@ def main() -> int:
 
 
 def _refused(error: object, code: int) -> int:
-    print(f"elastogeo: {error}", file=sys.stderr)
+    print(plain(f"elastogeo: {error}"), file=sys.stderr)
     return code

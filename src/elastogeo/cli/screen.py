@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table as RichTable
 
+from elastogeo.cli.plain import plain
 from elastogeo.report import Said, Table, View, save_report, view_of
 
 Step = Callable[[str], None]
@@ -28,8 +29,8 @@ if not _console.is_terminal:
 
 
 def say(sentence: str) -> None:
-    """Print a sentence, as it is."""
-    _console.print(sentence, markup=False, soft_wrap=True)
+    """Print a sentence, as it is, but for what would command the terminal."""
+    _console.print(plain(sentence), markup=False, soft_wrap=True)
 
 
 def show_json(document: Any) -> None:
@@ -104,13 +105,13 @@ def show_table(table: Table) -> None:
     for k, heading in enumerate(table.headings):
         words = k in table.words
         shown.add_column(
-            heading.replace("[", "\\["), justify="left" if words else "right", no_wrap=not words, overflow="fold"
+            plain(heading).replace("[", "\\["), justify="left" if words else "right", no_wrap=not words, overflow="fold"
         )
     for row in table.rows:
-        shown.add_row(*(cell.replace("[", "\\[") for cell in row))
+        shown.add_row(*(plain(cell).replace("[", "\\[") for cell in row))
     _console.print(shown)
     if table.note:
-        _console.print(table.note, markup=False, style="dim")
+        _console.print(plain(table.note), markup=False, style="dim")
 
 
 def show_check(check: Said) -> None:

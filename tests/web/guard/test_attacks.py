@@ -322,3 +322,49 @@ def test_what_is_no_request_is_refused_with_the_headers_of_every_answer(shop: Sh
         "cache-control: no-store",
     ):
         assert name in came
+
+
+def test_what_is_still_on_its_way_is_read_before_the_answer_ends(shop: Shop) -> None:
+    """Closed with bytes that nobody read, the connection would be broken off, and the sender would not see why."""
+    order: list[object] = []
+    parts = iter([b"x" * 60_000] * 3)
+
+    async def receive() -> dict[str, object]:
+        part = next(parts, None)
+        order.append("read")
+        return {"type": "http.request", "body": part or b"", "more_body": part is not None}
+
+    async def send(message: dict[str, Any]) -> None:
+        order.append((message["status"], dict(message["headers"])[b"connection"]) if "status" in message else "part")
+
+    headers = [(b"host", NAME.encode()), (b"authorization", b"Bearer egt_wrong"), (b"content-length", b"180000")]
+    scope = {
+        "type": "http", "method": "POST", "path": "/upload", "query_string": b"", "scheme": "http", "root_path": "",
+        "headers": headers, "client": ("192.0.2.1", 1),
+    }  # fmt: skip
+    asyncio.run(shop.app(scope, receive, send))
+    assert order == [(401, b"close"), "part", "read", "read", "read", "read", "part"]
+
+
+def test_a_request_that_says_two_things_is_refused(shop: Shop) -> None:
+    program = shop.program(shop.tokens[READER])
+    for name in ("Origin", "Content-Type", "Sec-Fetch-Site"):
+        answer = program.get("/fleet.json", headers=[(name, "same-origin"), (name, "same-origin")])  # type: ignore[arg-type]
+        assert (answer.status_code, "contradicts itself" in answer.text) == (400, True), name
+    answer = program.get("/fleet.json%00")
+    assert (answer.status_code, "contradicts itself" in answer.text) == (400, True)
+
+
+def test_no_socket_of_the_web_is_opened(shop: Shop) -> None:
+    came: list[dict[str, Any]] = []
+
+    async def receive() -> dict[str, object]:
+        return {"type": "websocket.connect"}
+
+    async def send(message: dict[str, Any]) -> None:
+        came.append(message)
+
+    headers = [(b"host", NAME.encode()), (b"authorization", f"Bearer {shop.tokens[ADMINISTRATOR]}".encode())]
+    scope = {"type": "websocket", "path": "/", "query_string": b"", "headers": headers, "state": {}, "root_path": ""}
+    asyncio.run(shop.app(scope, receive, send))
+    assert came == [{"type": "websocket.close", "code": 1008}]

@@ -142,6 +142,6 @@ def test_what_does_not_fit_is_not_echoed(shop: Shop, one: Address) -> None:
         answer = browser.post(f"{one.path}?{ECHO}={ECHO}", data=body)
         assert answer.status_code < 500
         assert "zq9<" not in answer.text
-        assert ECHO * 400 not in answer.text
+        assert answer.status_code != 422 or "zq9" not in answer.text  # however it is escaped
     if shop.head() != before:
         pytest.fail(f"{one.path} did something with a form in which nothing fits")

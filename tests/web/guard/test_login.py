@@ -12,7 +12,7 @@ from elastogeo.history.people import person_of_session
 from elastogeo.web.asking import ADMINISTRATOR, ENGINEER, READER
 from elastogeo.web.people.login import WRONG, _ours
 from elastogeo.web.people.throttle import FREE_BY_ADDRESS, FREE_BY_NAME, LONGEST, Throttle, TooOften
-from tests.web.guard.conftest import PASSWORD, PERSONS, Shop
+from tests.web.guard.conftest import NAME, PASSWORD, PERSONS, Shop
 
 ANNA = PERSONS[ADMINISTRATOR]
 
@@ -53,6 +53,16 @@ def test_logging_in_again_is_another_session_and_ends_the_one_before(own: Shop) 
     assert person_of_session(own.history.store, "chosen-by-somebody-else") is None
 
 
+def test_logging_in_again_shuts_the_session_that_this_browser_had(own: Shop) -> None:
+    browser = own.browser()
+    browser.post("/login", data=form())
+    before = browser.cookies["elastogeo_session"]
+    assert person_of_session(own.history.store, before) is not None
+    browser.post("/login", data=form(PERSONS[ENGINEER]))
+    assert browser.cookies["elastogeo_session"] != before
+    assert person_of_session(own.history.store, before) is None
+
+
 @pytest.mark.parametrize(
     ("settings", "name", "more"),
     [
@@ -67,7 +77,8 @@ def test_the_cookie_is_for_this_host_and_no_script(
 ) -> None:
     shop = make_shop(**settings)
     prefix = str(settings.get("prefix", ""))
-    done = shop.browser().post(f"{prefix}/login", data=form(to="/machines"))
+    origin = {"Origin": f"http{'s' if settings.get('behind_https') else ''}://{NAME}"}
+    done = shop.browser().post(f"{prefix}/login", data=form(to="/machines"), headers=origin)
     assert done.headers["location"] == f"{prefix}/machines"
     first, *parts = done.headers["set-cookie"].split("; ")
     assert first.partition("=")[0] == name

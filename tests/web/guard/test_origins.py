@@ -99,6 +99,13 @@ def test_which_origin_is_ours(origin: str, host: str, hosts: tuple[str, ...], ou
     assert is_own_origin(origin, host, Settings("h.db", hosts=hosts)) is ours
 
 
+def test_behind_https_a_page_that_came_without_it_is_not_ours() -> None:
+    settings = Settings("h.db", hosts=("shop.example",), behind_https=True)
+    assert is_own_origin("https://shop.example", "shop.example", settings)
+    assert not is_own_origin("http://shop.example", "shop.example", settings)
+    assert is_own_origin("http://127.0.0.1:8347", "127.0.0.1:8347", settings)  # on the server itself
+
+
 @pytest.mark.usefixtures("nothing_written")
 @pytest.mark.parametrize(
     "host",

@@ -6,8 +6,11 @@ import asyncio
 from collections.abc import Callable
 
 import pytest
+from sqlalchemy import update
 
 from elastogeo.history.people import has_accounts
+from elastogeo.history.store import write
+from elastogeo.history.store.schema import account
 from elastogeo.web import Settings, application
 from elastogeo.web.asking import ADMINISTRATOR, ANYBODY, ENGINEER, READER, ROLES
 from tests.web.guard.addresses import Address, addresses, shut
@@ -105,6 +108,8 @@ def test_without_accounts_whoever_sits_here_is_administrator_until_the_first_acc
         browser.base_url = "http://localhost:8347"
         browser.headers["Origin"] = "http://localhost:8347"
         assert "D. Here" in browser.get("/").text
+        for said in ("Bearer egt_wrong", "Basic QTpC", ""):  # whoever shows something shows the right thing
+            assert browser.get("/", headers={"Authorization": said}).status_code == 401
         assert not has_accounts(history.store)
         made = browser.post("/accounts", data={"name": "E", "role": "reader", "password": "", "again": ""})
         assert "make the account of one first, with a password" in made.text
@@ -144,6 +149,17 @@ def test_without_accounts_only_this_computer_is_served(settings, opens, tmp_path
         program = Shop(history, application(asked, history.store)).program()
         program.base_url = "http://localhost"
         assert program.get("/fleet.json").status_code == (200 if opens else 401)
+
+
+def test_an_account_that_is_off_opens_nothing_by_a_token_that_was_left(make_shop: Callable[..., Shop]) -> None:
+    """Switching off ends the tokens; should one be left, by whatever way, the account counts."""
+    shop = make_shop()
+    assert shop.program(shop.tokens[ENGINEER]).get("/fleet.json").status_code == 200
+    with write(shop.history.store) as connection:
+        connection.execute(update(account).values(active=False))
+    for role in (READER, ENGINEER, ADMINISTRATOR):
+        assert shop.program(shop.tokens[role]).get("/fleet.json").status_code == 401
+        assert shop.browser(role).get("/").headers["location"] == "/login"
 
 
 def test_a_session_that_ended_opens_nothing(make_shop: Callable[..., Shop]) -> None:

@@ -13,7 +13,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from elastogeo.web.guard.cookies import session_of
 from elastogeo.web.guard.hosts import bracketed, name_of
 from elastogeo.web.guard.refusing import header, refuse
-from elastogeo.web.settings import Settings
+from elastogeo.web.settings import LOOPBACK, Settings
 
 SAFE = ("GET", "HEAD", "OPTIONS", "TRACE")
 PORTS = {"http": 80, "https": 443}
@@ -61,6 +61,8 @@ def is_own_origin(origin: str, host: str, settings: Settings) -> bool:
         return False
     if said.scheme not in PORTS or not said.hostname or said.path or said.query or "@" in said.netloc:
         return False
+    if settings.behind_https and said.scheme != "https" and said.hostname not in LOOPBACK:
+        return False  # whoever writes into a page that came without https would act by it
     found = (bracketed(said.hostname), port)
     known = [_parted(host, said.scheme), *(_parted(bracketed(name), said.scheme) for name in settings.hosts)]
     return found in known

@@ -12,6 +12,7 @@ import typer
 
 import elastogeo as eg
 from elastogeo.cli.options import STORE, AsJson, Store, Who
+from elastogeo.cli.plain import plain
 
 if TYPE_CHECKING:
     from elastogeo.changes import ChangeVerdict
@@ -77,7 +78,7 @@ def _tell(one: Added, before: Sequence[Added]) -> None:
     same = one.imported is not None and told.get(one.imported.series) == _state(one)
     for line in lines_of(one, brief=same):
         if one.error:
-            print(f"elastogeo: {line}", file=sys.stderr, flush=True)
+            print(plain(f"elastogeo: {line}"), file=sys.stderr, flush=True)
         else:
             screen.say(line)
 

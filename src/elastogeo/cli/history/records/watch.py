@@ -11,6 +11,7 @@ import typer
 
 import elastogeo as eg
 from elastogeo.cli.options import STORE, Store, Who
+from elastogeo.cli.plain import plain
 
 
 def watch(
@@ -48,7 +49,7 @@ def watch(
             said = "\n".join(lines_of(seen.brought)) if seen.brought else f"{seen.path.name}: {seen.said}"
             line = f"{datetime.now():%Y-%m-%d %H:%M:%S} {seen.what}: {said}"
             bad = seen.what in ("refused", "held", "failed")
-            print(line, file=sys.stderr if bad else sys.stdout, flush=True)
+            print(plain(line), file=sys.stderr if bad else sys.stdout, flush=True)
             refused = refused or bad
     if once and refused:
         raise typer.Exit(2)

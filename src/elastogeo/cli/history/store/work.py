@@ -11,6 +11,7 @@ import typer
 
 import elastogeo as eg
 from elastogeo.cli.options import STORE, Store, Who
+from elastogeo.cli.plain import plain
 
 if TYPE_CHECKING:
     from elastogeo.history.jobs import Worker
@@ -51,4 +52,4 @@ def _stop_at_end(worker: Worker) -> None:
 
 
 def _tell(line: str) -> None:
-    print(f"{datetime.now():%Y-%m-%d %H:%M:%S} {line}", flush=True)
+    print(plain(f"{datetime.now():%Y-%m-%d %H:%M:%S} {line}"), flush=True)
