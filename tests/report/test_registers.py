@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from elastogeo.changes import KINDS, KeptCheck, KeptCopies, KeptCopy, WantedOfIndicator
+from elastogeo.errors import InputError
 from elastogeo.report import view_of
 from elastogeo.report.changes import taken
 from elastogeo.report.registers.copies_view import size_said
@@ -61,6 +62,10 @@ def test_what_a_form_shows_of_a_limit_is_kept_as_it_was_when_it_is_sent_back(kin
 
 
 def test_a_share_is_entered_in_percent_and_a_length_in_micrometres() -> None:
+    with pytest.raises(InputError, match="stiffness must stay between 20 and 10 N/µm: no value does; exchange them"):
+        taken(KINDS["stiffness"], 20.0, 10.0)
+    with pytest.raises(InputError, match="the least change of stiffness that matters is -3 %; give zero or more"):
+        taken(KINDS["stiffness"], matters=-3.0)
     assert taken(KINDS["stiffness"], 13.0, None, 5.0) == (pytest.approx(13_000.0), None, pytest.approx(0.05))
     assert taken(KINDS["backlash"], None, 4.0, 1.0) == (None, pytest.approx(0.004), pytest.approx(0.001))
     assert entered_values(WantedOfIndicator("squareness XY", KINDS["squareness"]))[2:] == ("3", "\u00b5rad", "\u00b5rad")

@@ -17,6 +17,7 @@ from elastogeo.history.alarms.states import fleet
 from elastogeo.history.store import Store, read
 from elastogeo.history.store.schema import series_state
 from elastogeo.report import view_of
+from elastogeo.report.alarms.words import since_said
 from tests.history.alarms.shop import (
     DAY,
     START,
@@ -90,6 +91,8 @@ def test_three_machines_that_move_alike_are_one_alarm_on_the_instrument(shop: Sh
         found = standing(connection, shop.clock.time).alarms
         rows = fleet(connection, shop.clock.time).machines
         assert unknown(connection) == 1, "one to acknowledge, not four"
+    (bar,) = [row for row in found if row.instrument]
+    assert since_said(bar) == "", "when its alarm was opened is not when it changed"
     assert [(row.instrument or row.machine, row.state) for row in found] == [
         ("LB-1", "open"),
         ("C50 no. 0", "held"),

@@ -40,7 +40,7 @@ def test_a_machine_a_kind_and_a_year_choose(history: eg.History) -> None:
     assert notes(history, "Mill 4", "", 2025) == []
     assert history.events("Mill 4", "", 2025).years == (2026,)
     assert view_of(history.events("Mill 4", "crash", 2025)).sentence == (
-        "No crash is written down in 2025 to Mill 4 or the instruments that tested it."
+        "No crash is written down in 2025 of Mill 4 or the instruments that tested it."
     )
     with pytest.raises(InputError, match="'party' is no kind of event"):
         history.events("", "party")
@@ -50,7 +50,12 @@ def test_a_machine_a_kind_and_a_year_choose(history: eg.History) -> None:
 
 def test_the_view_says_how_many_of_which_kind_and_the_last(history: eg.History) -> None:
     view = view_of(history.events())
-    assert view.sentence == "1 note, 1 crash, 1 repair and 1 calibration; the last on 1 March 2026: balls cleaned"
+    assert view.sentence == (
+        "1 note, 1 crash, 1 repair and 1 calibration; the last on 1 March 2026: note of instrument B-7, balls cleaned."
+    )
+    assert view_of(history.events("Mill 3")).sentence == (
+        "1 repair of Mill 3 or the instruments that tested it; the last on 4 May 2025: repair, nut of X."
+    )
     assert view.tables[0].keys == ("", 2, 1, "")
     assert view.document["schema"] == "elastogeo.events/1"
 

@@ -14,7 +14,7 @@ from elastogeo.report.drawing.plots import Band, Circle, Line, Mark, Text
 from tests.report.changes.cases import CASES, collision, guideway, healthy, many, nothing, suspect
 
 DRAWN = [name for name in CASES if name != "nothing"]
-LETTER = 6.6
+LETTER = 7.4
 """Width of a letter of 12 px DejaVu Sans, measured over the words of a trend."""
 
 

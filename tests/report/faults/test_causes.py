@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from math import atan2, hypot
 
@@ -13,7 +14,7 @@ from elastogeo.formats import read_test
 from elastogeo.identification import cause_parts, diagnose, identify
 from elastogeo.observe import Imperfection, Question
 from elastogeo.report import causes_document, plot_of, plot_svg
-from elastogeo.report.drawing.plots import Line, Mark
+from elastogeo.report.drawing.plots import Line, Mark, Text
 from elastogeo.report.faults.columns import for_a_page
 from elastogeo.sources import simulate
 from tests.history.analyses.kept import EXAMPLES
@@ -73,6 +74,16 @@ def test_all_forces_have_one_magnification_and_stay_inside(told) -> None:
         points = [point for shape in plot.shapes if isinstance(shape, Line) for point in shape.points]
         assert all(0 <= x <= plot.width and 0 <= y <= plot.height for x, y in points)
         assert f"{polar['title']}, magnified" in plot_svg(plot)
+        texts = [shape for shape in plot.shapes if isinstance(shape, Text)]
+        written = sorted(shape.y for shape in texts if re.fullmatch(r"[+−]\d.*|0 µm", shape.text))
+        assert min(np.diff(written)) >= 24, "values of rings do not cover each other, on a phone neither"
+
+
+def test_a_cause_has_as_many_digits_as_its_uncertainty(told) -> None:
+    known = [cause for cause in told["causes"] if cause["uncertainty"]]
+    assert known
+    for cause in known:
+        assert len(cause["distortion"].partition(".")[2]) == len(cause["uncertainty"].partition(".")[2]), cause
 
 
 def test_the_lead_adds_up(told, separated) -> None:

@@ -30,6 +30,11 @@ def test_a_page_of_a_simulated_history_says_so_once(visit: Visit, path: str) -> 
     assert page.count("Simulated: numbers") == 1
 
 
+@pytest.mark.parametrize("path", ["/upload", "/first", "/tokens", "/docs"])
+def test_a_page_that_shows_no_data_does_not(visit: Visit, path: str) -> None:
+    assert "Simulated" not in visit(ADMINISTRATOR).get(path).text
+
+
 def test_a_history_without_a_test_is_not_called_simulated(tmp_path: Path) -> None:
     with eg.History(tmp_path / "h.db", create=True) as history:
         assert history.simulated() == ""

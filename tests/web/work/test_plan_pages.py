@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from zipfile import ZipFile
@@ -14,6 +15,7 @@ from fastapi.testclient import TestClient
 import elastogeo as eg
 from elastogeo.cli import main
 from elastogeo.history.jobs import Worker
+from elastogeo.report import view_of
 from elastogeo.web import Settings, application
 from tests.web.ahead import HOST, shop_in
 
@@ -44,6 +46,27 @@ def test_ways_are_cards_with_what_they_resolve_and_cannot(pages: TestClient, key
     assert "min, with the" in page
     assert page.count('action="/machines/1/plan/choose"') == page.count('class="card way')
     assert "Mill &lt;3&gt;" in page
+
+
+def test_a_way_says_which_instrument_it_needs_that_is_not_there(history: eg.History, keys: dict[str, object]) -> None:
+    found = history.next_tests_of(history.job(int(str(keys["ways"]))))
+    with_it = [section.paragraphs for section in view_of(replace(found, instruments=("loaded-ball-bar",))).sections]
+    without = [section.paragraphs for section in view_of(replace(found, instruments=("ball-bar",))).sections]
+    said = "It needs the loaded ball bar: not among the instruments available."
+    assert any(said in paragraphs for paragraphs in without)
+    assert not any(said in paragraphs for paragraphs in with_it)
+
+
+@pytest.mark.parametrize(("entry", "value"), [("percent", "nan"), ("percent", "0"), ("percent", "100"), ("minutes", "nan")])
+def test_a_number_that_is_none_is_refused_before_a_job_is_made(
+    pages: TestClient, history: eg.History, entry: str, value: str
+) -> None:
+    form = {"goal": "stiffness", "percent": "5", "minutes": "15", "instrument": "loaded-ball-bar", entry: value}
+    before = len(history.jobs().jobs)
+    answer = pages.post("/machines/1/plan", data=form, headers=ORIGIN, follow_redirects=False)
+    assert answer.status_code == 422
+    assert f"What was sent does not fit: {entry}." in answer.text
+    assert len(history.jobs().jobs) == before
 
 
 def test_a_goal_is_asked_for_and_a_way_is_kept(pages: TestClient, history: eg.History) -> None:

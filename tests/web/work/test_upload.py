@@ -153,6 +153,8 @@ def test_a_bad_upload_is_told_in_the_words_of_the_command_line(browser: TestClie
     work(history)
     page = browser.get("/jobs/1").text
     assert "No test was found in what was sent." in page
+    assert '<span aria-hidden="true">■</span> Nothing to import' in page, "what holds no test is no success"
+    assert 'href="/upload">Send others</a>' in page
     assert "(at line 1, column 12)" in page
     assert evil not in page
     assert "&lt;script&gt;" in page

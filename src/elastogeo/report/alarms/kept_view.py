@@ -93,7 +93,15 @@ def kept_alarm_view(result: KeptAlarm) -> View:
         title=f"Alarm {row.number}",
         subtitle=of_what(row),
         origin=simulated_said(row.simulated),
-        head=(("Opened", date_said(row.opened)), ("Changed", since_said(row)), ("How sure", sure_said(row))),
+        head=tuple(
+            (label, text)
+            for label, text in (
+                ("Opened", date_said(row.opened)),
+                ("Changed", since_said(row)),
+                ("How sure", sure_said(row)),
+            )
+            if text
+        ),
         sentence=_answer(result),
         document=document(SCHEMA, found),
         rows=rows,

@@ -42,8 +42,10 @@ def change_said(row: AlarmRow) -> str:
 
 
 def since_said(row: AlarmRow) -> str:
-    """Since when it has changed; when the alarm was opened where that is not known."""
+    """Since when it has changed; when the alarm was opened where that is not known; empty for an instrument."""
     shown = row.shown
+    if row.instrument:
+        return ""
     return date_said(row.opened if shown is None else shown.changed_at or shown.since or row.opened)
 
 

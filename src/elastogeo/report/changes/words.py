@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import floor, isfinite, log10
 
 from elastogeo.changes import ALARM, NO_BASELINE, OVERDUE, STEADY, SUSPECT, WATCH, IndicatorState, Kind
+from elastogeo.errors import InputError
 from elastogeo.report.numbers import UNKNOWN, DisplayUnit, display_unit, pretty, significant
 
 MARKS = {ALARM: "■", SUSPECT: "◆", WATCH: "▲", OVERDUE: "◷", STEADY: "●", NO_BASELINE: "–"}
@@ -34,8 +35,14 @@ def taken(
     kind: Kind, lower: float | None = None, upper: float | None = None, matters: float | None = None
 ) -> tuple[float | None, float | None, float | None]:
     """A tolerance as a person says it, in the unit shown (what matters in % where the kind is relative), as it is kept."""
-    unit = shown_unit(kind.unit).factor
+    shown = shown_unit(kind.unit)
+    unit = shown.factor
     share = 100.0 if kind.relative else unit
+    if lower is not None and upper is not None and lower > upper:
+        raise InputError(f"{kind.name} must stay between {lower:g} and {upper:g} {shown.name}: no value does; exchange them")
+    if matters is not None and matters < 0:
+        of = "%" if kind.relative else shown.name
+        raise InputError(f"the least change of {kind.name} that matters is {matters:g} {of}; give zero or more")
     return (
         None if lower is None else lower / unit,
         None if upper is None else upper / unit,

@@ -20,7 +20,7 @@ from elastogeo.report.faults.columns import columns_document, for_a_page
 from elastogeo.report.faults.polar import polars
 from elastogeo.report.faults.rows import YES, DiagnosisRow, described, diagnosis_rows
 from elastogeo.report.identification.figures.contributions import kind_of
-from elastogeo.report.numbers import pretty, significant, whole_percent
+from elastogeo.report.numbers import pretty, significant, value_with_uncertainty, whole_percent
 from elastogeo.report.text import UM, combination, listed
 
 _NAMED = 4
@@ -60,17 +60,26 @@ def _causes(parts: CauseParts) -> list[dict[str, Any]]:
     return [_cause(result, cause, row, longest) for cause, row in zip(parts.causes, rows, strict=True)]
 
 
+def _with_half(cause: Fault) -> tuple[str, str]:
+    """Peak to peak [µm] and the half of its 95 % interval, to the same place; no half where there is no interval."""
+    size, spread = abs(cause.distortion) * UM, cause.distortion_estimate
+    if spread is None:
+        return significant(size), ""
+    number, _, half = value_with_uncertainty(size, spread.expanded() * UM).partition(" ± ")
+    return (number, half) if not number.startswith("(") else (significant(size), significant(spread.expanded() * UM, 2))
+
+
 def _cause(result: Identification, cause: Fault, row: DiagnosisRow, longest: float) -> dict[str, Any]:
     shown = described(cause, result)
-    spread = cause.distortion_estimate
+    size, half = _with_half(cause)
     return {
         "names": list(shown.names),
         "title": f"{row.meaning[:1].upper()}{row.meaning[1:]}",
         "name": row.name,
         "value": pretty(row.value),
         "unit": row.unit,
-        "distortion": significant(abs(cause.distortion) * UM),
-        "uncertainty": "" if spread is None else significant(spread.expanded() * UM, 2),
+        "distortion": size,
+        "uncertainty": half,
         "share": row.share_percent,
         "length": round(100 * abs(cause.distortion) / longest, 1),
         "kind": _kind(result, cause),

@@ -30,7 +30,14 @@ _MARKS = {WAITING: "–", RUNNING: "▷", DONE: "●", FAILED: "■", CANCELLED:
 _TONES = {WAITING: "none", RUNNING: "none", DONE: "good", FAILED: "bad", CANCELLED: "none"}
 _TOLD = {"look": looked_at, "import": came_in}
 """Kinds of which more is told than how long they took."""
-_TITLES = {"look": "What was sent", "import": "Import", "demo": "A simulated fleet"}
+_TITLES = {
+    "look": "What was sent",
+    "import": "Import",
+    "demo": "A simulated fleet",
+    "draw": "Drawing of a test",
+    "plan": "Ways to test",
+    "map": "Map of the workspace",
+}
 _SECONDS_A_DAY = 86_400.0
 
 
@@ -46,7 +53,7 @@ def job_view(job: KeptJob) -> View:
     told = _TOLD[job.kind](job.result) if job.state == DONE and job.result and job.kind in _TOLD else (_answer(job), ())
     return View(
         kind="Job",
-        title=_TITLES.get(job.kind, f"{job.kind[:1].upper()}{job.kind[1:]}"),
+        title=_title(job),
         subtitle=f"job {job.key}",
         origin=simulated(job.result or {}),
         head=tuple(
@@ -73,9 +80,9 @@ def jobs_view(found: KeptJobs) -> View:
     """What runs, what waits, what is over."""
     rows = [entry_of(job) for job in found.jobs]
     table = Table(
-        ("job", "what", "by", "asked", "state", "now"),
+        ("Job", "What", "By", "Asked", "State", "Now"),
         tuple(
-            (str(job.key), job.kind, job.who, moment_said(job.made_at), f"{job.state}{_share(job)}", _brief(job))
+            (str(job.key), _title(job), job.who, moment_said(job.made_at), f"{job.state}{_share(job)}", _brief(job))
             for job in found.jobs
         ),
         words=(0, 1, 2, 3, 4, 5),
@@ -115,7 +122,13 @@ def entry_of(job: KeptJob) -> dict[str, Any]:
     }
 
 
+def _title(job: KeptJob) -> str:
+    return _TITLES.get(job.kind, f"{job.kind[:1].upper()}{job.kind[1:]}")
+
+
 def _badge(job: KeptJob) -> Badge:
+    if job.state == DONE and job.kind == "look" and not (job.result or {}).get("tests"):
+        return Badge("■", "Nothing to import", "bad")
     if job.state == DONE and job.kind == "look" and waits_for_a_person(job.result or {}):
         return Badge("▷", "To be confirmed", "care")
     return Badge(_MARKS[job.state], f"{job.state[:1].upper()}{job.state[1:]}{_share(job)}", _TONES[job.state])

@@ -47,8 +47,8 @@ def section_view(section: MapSection) -> View:
         values=tuple(_values(section)),
         picture=Picture(
             "section",
-            "Stiffness in colour: violet where it is soft, and the nearer to the ground the stiffer; contours in N/µm. Grey "
-            "was never tested. ▼ softest, ▲ stiffest place of the section.",
+            "Stiffness in colour: violet where it is soft, fading to the background where it is stiff; contours in N/µm. "
+            "Grey was never tested. ▼ softest, ▲ stiffest place of the section.",
             answer,
             lambda: _figure(section),
             plain=lambda: section_plot(section, answer),

@@ -67,7 +67,7 @@ def foundation(facts: Facts, passed: bool | None) -> str:
     """Whether the identification is sound."""
     if passed:
         return "No check of the identification failed."
-    return f"The identification needs attention first: {', '.join(facts['failed'])}. See elastogeo identify."
+    return f"The identification needs attention first: {', '.join(facts['failed'])}."
 
 
 @says(LIMIT)

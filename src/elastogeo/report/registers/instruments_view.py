@@ -62,7 +62,7 @@ def instruments_view(result: KeptInstruments) -> View:
         tuple(
             (
                 one.serial,
-                one.kind,
+                one.kind.replace("-", " "),
                 _marked(one, result.now),
                 short_date(one.calibrations[0].at) if one.calibrations else "",
                 short_date(one.due.at),
@@ -112,7 +112,7 @@ def instrument_view(result: InstrumentRecord) -> View:
         note=f"The last {len(result.tests)} of {one.tests}." if len(result.tests) < one.tests else "",
     )
     alarms = Table(
-        ("Alarm", "State", "Since"),
+        ("Alarm", "State", "Opened"),
         tuple((f"Alarm {number}", state, date_said(at)) for number, state, at in result.alarms),
         words=(0, 1, 2),
         name="alarms",

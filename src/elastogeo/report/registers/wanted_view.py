@@ -65,7 +65,7 @@ def settings_view(result: KeptSettings) -> View:
     """What people have set: of each series its baseline, its limits, how often it is tested."""
     entries = [_entry(one) for one in result.series]
     table = Table(
-        ("Machine", "Series", "State", "Tests", "Baseline", "Limits", "Tested"),
+        ("Machine", "Series", "State", "Tests", "Baseline", "Limits", "Interval"),
         tuple(
             (
                 one.machine,
@@ -172,7 +172,7 @@ def series_view(result: SeriesRecord) -> View:
         origin=simulated_said(verdict.series.simulated),
         head=(
             ("Baseline", _baseline_said(one)),
-            ("Tested", _interval_said(one)),
+            ("Interval", _interval_said(one)),
             ("Next test", "" if verdict.due is None else line_of(verdict.due)),
         ),
         sentence=_series_answer(result),

@@ -112,7 +112,7 @@ def ask_for_ways(
     instrument: Annotated[list[str], Form(max_length=20)],
     one: Annotated[str, Form(max_length=60)] = "",
     other: Annotated[str, Form(max_length=60)] = "",
-    percent: Annotated[float, Form(gt=0, le=100)] = 5.0,
+    percent: Annotated[float, Form(gt=0, lt=100)] = 5.0,
 ) -> Done:
     """Ask for ways to reach a goal: `stiffness`, `workspace`, `parameters`, `between` (two components), or a suggestion."""
     found = asked.machine(key)

@@ -16,7 +16,7 @@ from elastogeo.report.changes.compared.document import compare_json
 from elastogeo.report.changes.compared.rows import indicator_table, parameter_table
 from elastogeo.report.changes.compared.settings import setting_name, settings_table
 from elastogeo.report.changes.words import shown_unit, title_of
-from elastogeo.report.days import iso_date, short_date
+from elastogeo.report.days import iso_date, origin_said, short_date
 from elastogeo.report.document import document
 from elastogeo.report.numbers import pretty, said_estimate
 from elastogeo.report.view import KeyValue, Section, Table, View, lines, said, views
@@ -109,4 +109,4 @@ def _head(one: ComparedTest) -> str:
 def _origin(result: ComparedTests) -> str:
     """What is not measured, said once."""
     kinds = {one.origin: one.from_what for one in (result.before, result.after) if one.origin != "measured"}
-    return "; ".join(f"{kind.capitalize()}: {what}" if what else kind.capitalize() for kind, what in kinds.items())
+    return "; ".join(origin_said(kind, what or kind) for kind, what in kinds.items())

@@ -46,7 +46,7 @@ def events_view(found: EventList) -> View:
     shown = found.events[:MOST]
     left = len(found.events) - len(shown)
     table = Table(
-        ("date", "of", "kind", "what happened", "by"),
+        ("Date", "Of", "Kind", "What happened", "By"),
         tuple(_row(one) for one in shown),
         words=(0, 1, 2, 3, 4),
         note=f"{left} older events are in the JSON." if left else "",
@@ -74,15 +74,17 @@ def _row(one: KeptEvent) -> tuple[str, ...]:
 
 def _answer(found: EventList) -> str:
     within = f" in {found.year}" if found.year is not None else ""
-    of = f" to {found.machine} or the instruments that tested it" if found.machine else ""
+    of = f" of {found.machine} or the instruments that tested it" if found.machine else ""
     if not found.events:
         what = f"No {found.kind}" if found.kind else "Nothing"
         return f"{what} is written down{within}{of}."
     counts = Counter(one.event.kind for one in found.events)
     kinds = listed(f"{count} {_plural(kind, count)}" for kind, count in counts.most_common())
     last = found.events[0]
-    where = f" ({last.machine})" if last.machine and not found.machine else ""
-    return f"{kinds}{within}{of}; the last on {date_said(last.event.date)}{where}: {last.event.note or last.event.kind}"
+    which = last.machine if last.machine and not found.machine else f"instrument {last.event.instrument}"
+    where = "" if last.machine and found.machine else f" of {which}"
+    what = f"{last.event.kind}{where}{f', {last.event.note}' if last.event.note else ''}"
+    return f"{kinds}{within}{of}; the last on {date_said(last.event.date)}: {what}."
 
 
 def _plural(kind: str, count: int) -> str:

@@ -17,7 +17,7 @@ import numpy as np
 
 from elastogeo.changes import NO_READINGS, NOT_EXPLAINED, Explored, ExploredRun
 from elastogeo.machine import Array
-from elastogeo.report.days import date_said, iso_date
+from elastogeo.report.days import date_said, iso_date, origin_said
 from elastogeo.report.document import document
 from elastogeo.report.numbers import significant
 from elastogeo.report.text import MICRO, UM
@@ -45,7 +45,7 @@ def explored_view(found: Explored) -> View:
         kind="Readings",
         title=found.machine,
         subtitle=f"{found.name}, {date_said(found.date)}",
-        origin="" if found.origin == "measured" else f"{found.origin.capitalize()}: {found.from_what}".rstrip(": "),
+        origin="" if found.origin == "measured" else origin_said(found.origin, found.from_what or found.origin),
         sentence=_answer(found),
         document=document(
             "elastogeo.explore/1",

@@ -53,7 +53,7 @@ def next_tests_view(found: NextTests) -> View:
         sentence=_answer(found),
         document=document(NEXT_SCHEMA, found.document()),
         rows=rows,
-        sections=tuple(_card(found.goal, one) for one in found.alternatives),
+        sections=tuple(_card(found, one) for one in found.alternatives),
         notes=(
             "Expected with 0.1 µm of noise of a reading, and 0.2 µm and 1 % of the force from run to run. A fault counts as "
             "told if a change of a typical size (5 nm/N) stands out of all that the other component can do by twice the "
@@ -71,13 +71,20 @@ def _answer(found: NextTests) -> str:
     return f"{_title(does.plan)}, {verb} enough to {goal}."
 
 
-def _card(goal: NextGoal, one: KeptAlternative) -> Section:
-    plan = one.plan
+def _card(found: NextTests, one: KeptAlternative) -> Section:
+    goal, plan = found.goal, one.plan
     return Section(
         title=_title(plan),
-        paragraphs=tuple(map(pretty, (_resolves(goal, one), *_expected(goal, one)))),
+        paragraphs=tuple(map(pretty, (_resolves(goal, one), *_expected(goal, one), *_lacking(found, plan)))),
         tables=(*_ways_table(one.ways), _tests_table(plan)),
     )
+
+
+def _lacking(found: NextTests, plan: Mapping[str, Any]) -> Iterator[str]:
+    """Which of its instruments are not among those that there are."""
+    kinds = dict.fromkeys(test["instrument"] for test in plan["tests"])
+    if lacking := tuple(kind.replace("-", " ") for kind in kinds if kind not in found.instruments):
+        yield f"It needs the {listed(lacking)}: not among the instruments available."
 
 
 def _title(plan: Mapping[str, Any]) -> str:

@@ -19,7 +19,7 @@ from elastogeo.report.drawing.plots import Band, Circle, Entry, Line, Mark, Plac
 
 _WIDE, _NARROW = (720.0, 410.0), (328.0, 250.0)
 """Width and height [px]."""
-_LETTER, _LINE = 6.6, 15.0
+_LETTER, _LINE = 7.4, 16.0
 """Width of a letter at most, and height of a line of them [px]."""
 _ROWS = 5
 """Of event letters, one below the other, where they would cover each other."""
@@ -88,7 +88,7 @@ def trend_plot(verdict: ChangeVerdict, one: IndicatorState, since: float = -np.i
     points = tuple(point for point in every if point.date >= since) or every
     days, values = time_shown(verdict, one, points), values_shown(one, points)
     width, height = size = _NARROW if narrow else _WIDE
-    chart = _Chart(one, days, values, size, 44.0, width - (8.0 if narrow else 124.0), 44.0, height - 24.0)
+    chart = _Chart(one, days, values, size, 44.0, width - (8.0 if narrow else 150.0), 44.0, height - 24.0)
     _grid(chart)
     _expected(chart, points)
     _drift(chart)
@@ -288,7 +288,7 @@ def _events(chart: _Chart, verdict: ChangeVerdict) -> None:
         x = chart.x(day)
         chart.shapes.append(Line(((x, chart.top), (x, chart.bottom)), "soft", 1.0, (2.0, 3.0)))
         if row is not None:
-            y = chart.bottom - 12 - 20 * row
+            x, y = max(x, chart.left + 4), chart.bottom - 12 - 20 * row
             chart.shapes.append(Circle(x, y, 9, "soft", filled=True))
             chart.shapes.append(Text(x, y + 4, name, "middle", "paper", strong=True, size=12))
 
@@ -314,7 +314,7 @@ def _above(chart: _Chart, verdict: ChangeVerdict, points: Sequence[Point]) -> No
     x, kind = chart.x(verdict.since), "bad" if chart.one.state == ALARM else "care"
     chart.shapes.append(Line(((x, 18), (x, chart.bottom)), kind))
     words = f"{verdict.state} {short_date(verdict.since)}"
-    half = len(words) * (_LETTER + 0.6) / 2
+    half = len(words) * (_LETTER + 1.0) / 2
     middle = min(max(x, taken + half), chart.size[0] - half)
     chart.shapes.append(Text(middle, 14, words, "middle", kind, strong=True))
 
