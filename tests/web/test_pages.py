@@ -64,6 +64,12 @@ def test_what_is_not_there_is_said_in_one_sentence(browser: TestClient, path: st
     assert "There is no such" in answer.text
 
 
+def test_the_addresses_for_programs_show_code_as_code(browser: TestClient) -> None:
+    page = browser.get("/docs").text
+    assert "<code>alarm 3</code>" in page
+    assert "`" not in page
+
+
 def test_every_page_has_a_role_and_the_twins_are_described() -> None:
     routes = [route for pages in every() for route in pages.routes]
     assert len(routes) > 5

@@ -55,7 +55,7 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {"drawn": _drawn, "plot": lambda plot: Markup(plot_svg(plot)), "strong": _strong}
+    environment.filters |= {"drawn": _drawn, "plot": lambda plot: Markup(plot_svg(plot)), "strong": _strong, "coded": _coded}
     return environment
 
 
@@ -65,6 +65,12 @@ def _strong(sentence: str, words: Iterable[str]) -> Markup:
     for one in dict.fromkeys(filter(None, words)):
         text = text.replace(escape(one), Markup("<b>{}</b>").format(one), 1)
     return text
+
+
+def _coded(text: str) -> Markup:
+    """A sentence of the code's own documentation, with what stands between backticks as code."""
+    parts = text.split("`")
+    return Markup("").join(Markup("<code>{}</code>").format(one) if k % 2 else escape(one) for k, one in enumerate(parts))
 
 
 def _drawn(picture: Picture) -> Markup:

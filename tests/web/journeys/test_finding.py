@@ -56,3 +56,17 @@ def test_filters_survive_paging_reloading_and_going_back(shop: Site, screens: An
 def names(page: Any) -> list[str]:
     """The machines of the page."""
     return list(page.locator(".cards tbody th").all_inner_texts())
+
+
+def test_what_was_typed_is_there_again_after_a_refusal(screen: Watched) -> None:
+    screen.expected = (400,)
+    page = screen.page
+    screen.go("/machines/1/events")
+    page.fill("textarea[name=note]", "carriage 2 of X replaced")
+    page.fill("input[name=at]", "2026-13-40")
+    with page.expect_navigation():
+        page.get_by_role("button", name="Add the event").click()
+    assert "write it as 2026-03-01" in page.locator("main").inner_text()
+    page.go_back()
+    assert page.input_value("textarea[name=note]") == "carriage 2 of X replaced"
+    assert page.input_value("input[name=at]") == "2026-13-40"
