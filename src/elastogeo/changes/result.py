@@ -132,11 +132,6 @@ class IndicatorState(Part):
     drift: Drift | None = None
     shape: str = ""
 
-    @property
-    def relative_change(self) -> float:
-        """The change as a share of the baseline's mean."""
-        return self.change / abs(self.mean) if self.mean else float("nan")
-
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ChangeVerdict(Result):

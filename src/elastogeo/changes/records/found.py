@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from elastogeo.result import Part, Result
 
-MACHINES, SERIES, TESTS, INSTRUMENTS, EVENTS = FOUND_KINDS = ("machines", "series", "tests", "instruments", "events")
+FOUND_KINDS = ("machines", "series", "tests", "instruments", "events")
 """Kinds of what is found, in the order in which they are shown."""
 
 

@@ -67,9 +67,8 @@ def _(shape: Mark) -> str:
     drawn = bar + _mark(shape)
     if not shape.title:
         return drawn
-    at = f'data-x="{_n(shape.x)}" data-y="{_n(shape.y)}"'
     key = f' data-key="{escape(str(shape.link))}"' if shape.link != "" else ""
-    return f'<g class="mark" {at}{key}><title>{escape(shape.title)}</title>{drawn}</g>'
+    return f'<g class="mark"{key}><title>{escape(shape.title)}</title>{drawn}</g>'
 
 
 def _mark(mark: Mark) -> str:

@@ -24,7 +24,7 @@ from elastogeo.report.drawing.magnified import Scale, around, scale_for
 from elastogeo.report.drawing.style import SMALL, force_colours, panels
 from elastogeo.report.identification.figures.traces import broken
 from elastogeo.report.numbers import significant
-from elastogeo.report.text import all_separated, reading_unit
+from elastogeo.report.text import reading_unit
 
 _PARTS = ("compliance and geometry", "compliance alone", "geometry alone")
 
@@ -43,12 +43,6 @@ class _Line:
     colour: str
     pose: Array
     parts: tuple[Array, Array, Array]
-
-
-def has_both(result: Identification) -> bool:
-    """Whether compliance and geometry of the machine were both identified, and distinguished."""
-    kinds = {parameter.elastic for parameter in result.parameters if parameter.axis}
-    return len(kinds) == 2 and all_separated(result)
 
 
 def separation_figure(result: Identification) -> Figure:
