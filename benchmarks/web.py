@@ -38,12 +38,12 @@ from elastogeo.history.store import Store, open_store
 
 SIZE = (200, 200)
 TIMES = 100
-PACKED = ("/", "/machines/1", "/machines/1/tests", "/tests/1", "/alarms", "/events", "/instruments", "/audit", "/upload")
+PACKED = ("/", "/machines/1", "/machines/1/tests", "/alarms", "/events", "/instruments", "/audit", "/upload")
 HOST = "127.0.0.1"
 READY = 60.0
 """Seconds in which the server must answer first."""
-REAL = 8
-"""Tests with their files, which the worker analyses and draws over and over."""
+REAL = 4
+"""Tests with their files, which are drawn, and which the worker analyses and draws over and over."""
 ROUNDS = 30
 
 
@@ -139,7 +139,7 @@ def times(site: Served, paths: list[str], again: bool = False) -> str:
 
 
 def real_tests(database: Path, folder: Path) -> tuple[int, list[int]]:
-    """Import tests with their files: the key of their series, and theirs."""
+    """Import tests with their files, and draw them: the key of their series, and theirs."""
     tests = []
     with History(database, who="benchmark") as history:
         history.add_machine("Analysed")
@@ -151,6 +151,7 @@ def real_tests(database: Path, folder: Path) -> tuple[int, list[int]]:
             added = history.add(file.parent, machine="Analysed").imported
             assert added is not None
             tests.append(added.test)
+            history.draw(added.test)
     return added.series, tests
 
 
@@ -195,7 +196,7 @@ def main() -> None:
         pages = {
             "fleet": ["/"] * TIMES,
             "machine": [f"/machines/{k % machines + 1}" for k in range(TIMES)],
-            "test": [f"/tests/{k * machines * tests // TIMES + 1}" for k in range(TIMES)],
+            "test": [f"/tests/{real[1][k % REAL]}" for k in range(TIMES)],
             "tests of a machine": [f"/machines/{k % machines + 1}/tests" for k in range(TIMES)],
             "alarms": ["/alarms"] * TIMES,
         }
@@ -209,7 +210,7 @@ def main() -> None:
                 print(f"{name + ', unchanged (304)':<40}{times(site, pages[name], again=True)}", flush=True)
             analysed_beside(site, database, real, {name: pages[name] for name in ("fleet", "machine")})
             print("\npage packed [kB]")
-            for path in PACKED:
+            for path in (*PACKED, pages["test"][0]):
                 status, _, body, _ = site.asked(path)
                 print(f"{path:<40}{len(body) / 1000:>10.1f}{'' if status == 200 else f'   ({status})'}", flush=True)
     finally:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import socket
 import subprocess
@@ -61,6 +62,8 @@ def serve(settings: Settings, say: Callable[[str], None] = print) -> None:
         )  # fmt: skip
         worker = _Worker(settings) if settings.worker else None
         server = uvicorn.Server(config)
+        gc.collect()
+        gc.freeze()  # what is there by now stays: to look through it for waste costs a page now and then 0.1 s
         say(f"elastogeo is at http://{settings.host}:{settings.port}{settings.prefix}/ ; stop it with Ctrl+C")
         try:
             server.run(sockets)
