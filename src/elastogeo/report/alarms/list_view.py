@@ -96,7 +96,8 @@ def _answer(result: AlarmList) -> str:
 
 
 def _closed(row: AlarmRow) -> str:
-    after = "The series needs a new baseline." if row.state == CLOSED[0] and not row.instrument else ""
+    follows = "The series needs a new baseline." if row.state == CLOSED[0] else "The series keeps its baseline."
+    after = "" if row.instrument else follows
     return f"Alarm {row.number} of {of_what(row)} is {row.state} by {row.who}. {after}".strip()
 
 
