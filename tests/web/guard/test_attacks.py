@@ -368,3 +368,11 @@ def test_no_socket_of_the_web_is_opened(shop: Shop) -> None:
     scope = {"type": "websocket", "path": "/", "query_string": b"", "headers": headers, "state": {}, "root_path": ""}
     asyncio.run(shop.app(scope, receive, send))
     assert came == [{"type": "websocket.close", "code": 1008}]
+
+
+def test_nothing_in_what_is_downloaded_runs_should_a_browser_show_it(shop: Shop) -> None:
+    answer = shop.browser(READER).get("/machines/1/report.html")
+    assert (answer.status_code, answer.headers["content-disposition"].partition(";")[0]) == (200, "attachment")
+    policy = answer.headers["content-security-policy"]
+    assert policy.endswith("sandbox")
+    assert "script-src" not in policy

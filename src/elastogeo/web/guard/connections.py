@@ -41,7 +41,8 @@ class Connection(H11Protocol):
         said = {"content-type": "text/plain; charset=utf-8", "content-security-policy": CONFINED, **ALWAYS}
         lines = [(name.lower().encode(), value.encode()) for name, value in said.items()]
         lines += [(b"cache-control", b"no-store"), (b"connection", b"close")]
-        for event in (h11.Response(status_code=400, headers=lines), h11.Data(data=msg.encode("ascii")), h11.EndOfMessage()):
+        begun = h11.Response(status_code=400, headers=lines, reason=b"Bad Request")
+        for event in (begun, h11.Data(data=msg.encode("ascii")), h11.EndOfMessage()):
             self.transport.write(self.conn.send(event) or b"")
         self.transport.close()
 
