@@ -8,7 +8,7 @@ packed 60 kB at most.
 Times are of the clock, so whoever else uses the cores is in them. Where the system tells it (Linux), two columns say how far
 they are to be believed: `CPU`, what the server itself computes for an answer, and `others`, how many cores were kept busy
 meanwhile by what is neither the server, nor its worker, nor this program. Nothing is asserted, but it stops where the worker
-did not work all the while that the pages were asked beside it.
+had nothing to do while the pages were asked beside it; that it got a core for it shows in the column `worker`, near 1.
 """
 
 from __future__ import annotations

@@ -9,6 +9,7 @@ from math import ceil, isfinite
 _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 _LAST_DAY = 2_900_000.0
 """Days since 1970 that a calendar holds."""
+_MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
 
 
 def moment(day: float) -> datetime | None:
@@ -25,7 +26,7 @@ def date_said(day: float | None) -> str:
 def short_date(day: float | None) -> str:
     """`11 Jun 2026`, for tables; empty for none."""
     at = None if day is None else moment(day)
-    return "" if at is None else f"{at.day} {at:%b %Y}"
+    return "" if at is None else f"{at.day} {_MONTHS[at.month - 1]} {at.year}"
 
 
 def month_said(day: float) -> str:
