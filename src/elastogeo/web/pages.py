@@ -60,7 +60,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine
 from functools import wraps
 from inspect import iscoroutinefunction
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args
 
 from fastapi import APIRouter, Request, Response
 from fastapi.routing import APIRoute
@@ -89,10 +89,13 @@ class Page(APIRoute):
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         """What answers a request."""
         answer, role = super().get_route_handler(), (self.openapi_extra or {})["x-role"]
+        kinds = {one.name: one.field_info.annotation for one in self.dependant.query_params}
+        numbers = {name for name, kind in kinds.items() if int in (kind, *get_args(kind))}
 
         async def handler(request: Request) -> Response:
             asked_of(request).needs(role)
-            for name, said in (*request.path_params.items(), *request.query_params.items()):
+            asked_for = ((name, said) for name, said in request.query_params.items() if name in numbers)
+            for name, said in (*request.path_params.items(), *asked_for):
                 if is_too_large(str(said)):
                     raise NotFound(f"There is nothing of this number: {name}.")
             return await answer(request)

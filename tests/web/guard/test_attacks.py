@@ -43,10 +43,16 @@ def own(make_shop: Callable[..., Shop]) -> Iterator[Shop]:
 
 
 @pytest.mark.parametrize(
-    "path", [f"/machines/{DIGITS}", f"/tests/{DIGITS}.json", f"/jobs?x={DIGITS}", f"/compare?a={DIGITS}"]
+    "path", [f"/machines/{DIGITS}", f"/tests/{DIGITS}.json", f"/plans?machine={DIGITS}", f"/compare?a={DIGITS}"]
 )
 def test_a_number_of_thousands_of_digits_is_nothing(shop: Shop, path: str) -> None:
     assert shop.browser(ADMINISTRATOR).get(path).status_code == 404
+
+
+def test_words_to_search_may_be_a_long_number(shop: Shop) -> None:
+    """A serial number of twenty digits is one."""
+    assert shop.browser(READER).get("/search?q=12345678901234567890").status_code == 200
+    assert shop.browser(READER).get(f"/jobs?x={DIGITS}").status_code == 200  # of which the page asks nothing
 
 
 @pytest.mark.parametrize("number", ["²", "٣", "9" * 30, "-1", ""])
