@@ -29,7 +29,7 @@ def test_two_tests_are_chosen_and_compared(screen: Watched) -> None:
     assert page.locator("tr.strong th", has_text="Squareness XY").count() == 1  # the machine ran into a clamp
 
     rows = page.locator("table.judged tbody th").all_inner_texts()
-    send(page, page.get_by_role("link", name="JSON", exact=True))
+    send(page, page.get_by_role("link", name=".json", exact=True))
     said = json.loads(page.locator("body").inner_text())
     assert (said["schema"], said["before"]["test"], said["after"]["test"]) == ("elastogeo.compare/1", 2, 8)
     assert [one.lower() for one in rows] == [one["name"].lower() for one in said["indicators"]]
