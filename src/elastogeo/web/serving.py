@@ -95,7 +95,8 @@ def listening(host: str, port: int) -> Iterator[list[socket.socket]]:
 
 
 def _bound(held: ExitStack, family: int, address: tuple[Any, ...]) -> socket.socket:
-    taken = held.enter_context(socket.socket(family, socket.SOCK_STREAM))
+    # named TCP, or asyncio leaves the pause of small packets on: 40 ms an answer
+    taken = held.enter_context(socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP))
     if os.name == "posix":
         taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     if family == socket.AF_INET6:
