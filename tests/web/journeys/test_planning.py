@@ -27,7 +27,7 @@ def test_from_a_goal_in_words_to_programs_and_done(acting: Watched) -> None:
     assert ALARMED.name in page.locator("h1").inner_text()
     choose(page, page.get_by_label("One component"), "drive X")
     choose(page, page.get_by_label("Another component"), "drive Y")
-    write(page, page.get_by_label("Minutes that there are"), "30")
+    write(page, page.get_by_label("Minutes available"), "30")
     send(page, page.get_by_role("button", name="Work out the ways"))
 
     way = page.locator(".way.resolved").first
@@ -102,5 +102,5 @@ def test_a_plan_that_cannot_be_made_says_why(acting: Watched) -> None:
     choose(page, page.get_by_label("Another component"), "drive X")
     send(page, page.get_by_role("button", name="Work out the ways"))
     page.get_by_text("it takes two components to be told apart").wait_for(timeout=SOON)
-    tab_to(page, page.get_by_label("Minutes that there are"))
+    tab_to(page, page.get_by_label("Minutes available"))
     assert page.get_by_role("button", name="Work out the ways").is_visible()

@@ -43,12 +43,14 @@ def test_runs_are_switched_and_the_residual_is_drawn(screen: Watched) -> None:
     runs = page.locator('input[name="run"]').count()
     assert lines.count() == 2 * runs
     page.get_by_label("residual").check()
-    page.wait_for_function(f"document.querySelectorAll('#drawing .scatterlayer .trace').length === {runs}")
+    lines.nth(runs).wait_for(state="detached")
+    assert lines.count() == runs
     assert "measured − model" in (page.locator("#drawing .gtitle").text_content() or "")
     page.get_by_role("button", name="None").click()
-    page.wait_for_function("document.querySelectorAll('#drawing .scatterlayer .trace').length === 0")
+    lines.first.wait_for(state="detached")
     page.locator('input[name="run"]').first.check()
-    page.wait_for_function("document.querySelectorAll('#drawing .scatterlayer .trace').length === 1")
+    lines.first.wait_for()
+    assert lines.count() == 1
 
 
 def test_no_button_leads_to_a_cloud(screen: Watched) -> None:

@@ -97,7 +97,7 @@ def test_an_upload_that_is_stopped_leaves_nothing(own: Site, screens: Any) -> No
     screen.go("/upload")
     page.evaluate(DROP, [["big.csv", "1,2\n" * 1_000_000]])
     page.get_by_role("button", name="Stop").wait_for()
-    page.wait_for_function("document.getElementById('how-much').textContent.includes('of 4.0 MB')")
+    page.locator("#how-much", has_text="of 4.0 MB").wait_for()
     page.get_by_role("button", name="Stop").click()
     page.get_by_text("Stopped; nothing was kept.").wait_for()
     with eg.History(own.database) as history:
