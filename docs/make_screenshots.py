@@ -27,7 +27,7 @@ from tests.web.fleets import DATABASE, make_fleet  # noqa: E402
 FOLDER = Path(__file__).with_name("web")
 COLOURS = 64
 """Of a picture: pages are flat."""
-TALLEST = 1800
+TALLEST = 1500
 """Pixels that a picture shows of a long page."""
 DESKTOP, PHONE, PAPER = (1400, 900), (390, 844), (794, 1123)
 LOOKS: dict[str, dict[str, Any]] = {

@@ -142,8 +142,8 @@ def test_a_job_that_gets_further_each_time_is_not_given_up(store):
 
 def test_a_worker_that_is_alive_keeps_its_job_and_one_elsewhere_until_it_is_silent(store, standing_clock):
     here = f"{socket.gethostname()}/{os.getpid()}/other"
-    for name in (here, "elsewhere/1/x"):
-        put_job(store, "count", {"to": len(name)})
+    for to, name in enumerate((here, "elsewhere/1/x")):
+        put_job(store, "count", {"to": to})
         rows.take_job(store, name)
     standing_clock.advance(seconds=rows.STALE.total_seconds() - 1)
     assert rows.requeue_lost(store, "me") == 0
