@@ -16,18 +16,17 @@ from __future__ import annotations
 import gzip
 import os
 import shutil
-import socket
-import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from http.client import HTTPConnection
 from math import nan
 from pathlib import Path
 from statistics import median, quantiles
+from urllib.parse import urlsplit
 
 from full_history import SAMPLE, fill
 
@@ -36,12 +35,13 @@ from elastogeo.history import History
 from elastogeo.history.alarms.assessing import assess
 from elastogeo.history.store import Store, open_store
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from tests.web.browsing import serving
+
 SIZE = (200, 200)
 TIMES = 100
 PACKED = ("/", "/machines/1", "/machines/1/tests", "/alarms", "/events", "/instruments", "/audit", "/upload")
-HOST = "127.0.0.1"
-READY = 60.0
-"""Seconds in which the server must answer first."""
 REAL = 4
 """Tests with their files, which are drawn, and which the worker analyses and draws over and over."""
 ROUNDS = 30
@@ -70,29 +70,8 @@ class Served:
 @contextmanager
 def served(database: Path, log: Path) -> Iterator[Served]:
     """The program on a history, with its worker."""
-    with socket.socket() as one:
-        one.bind((HOST, 0))
-        port = one.getsockname()[1]
-    command = [sys.executable, "-m", "elastogeo", "serve", "--store", str(database), "--port", str(port)]
-    with log.open("wb") as told:
-        process = subprocess.Popen(command, stdout=told, stderr=subprocess.STDOUT)
-    site = Served(HTTPConnection(HOST, port, timeout=60), process.pid)
-    try:
-        until = time.monotonic() + READY
-        while True:
-            try:
-                site.asked("/health")
-                break
-            except OSError:
-                site.connection.close()
-                if process.poll() is not None or time.monotonic() > until:
-                    raise SystemExit(f"the server did not come up:\n{log.read_text()}") from None
-                time.sleep(0.1)
-        yield site
-    finally:
-        site.connection.close()
-        process.terminate()
-        process.wait(20)
+    with serving(database, log) as site, closing(HTTPConnection(urlsplit(site.url).netloc, timeout=60)) as connection:
+        yield Served(connection, site.process.pid)
 
 
 def processor_time(process: int | None = None) -> float:

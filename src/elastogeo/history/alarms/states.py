@@ -141,7 +141,6 @@ _UNKNOWN = _NO_TEST.document()
 
 def _machine_row(row: Row[Any]) -> MachineRow:
     """A series of a machine as a row; one that was never assessed, or a machine without any, has no baseline."""
-    """A series of a machine as a row; one that was never assessed, or a machine without any, has no baseline."""
     named = {
         "machine": row.name,
         "place": row.place,

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from elastogeo.formats import read_machine, write_tests
-from elastogeo.history.fleets.folders import FROM_WHAT, IMPERFECT, read_by_instrument
+from elastogeo.history.fleets.folders import IMPERFECT, about, read_by_instrument
 from elastogeo.history.fleets.stories import FORCE_SCATTER, Story, everywhere, temperature, truth
 from elastogeo.history.history import Added, History
 from elastogeo.planning import plan
@@ -32,20 +32,6 @@ serial = "{bar}"
 kind = "force-scale"
 label = "force gauge"
 relative = {scatter}
-"""
-_ABOUT = """\
-resolution_um = 0.1
-simulated = "{simulated}"
-
-[about]
-date = "{at}"
-operator = "demo"
-place = "{place}"
-machine_serial = "{machine}"
-instrument_serial = "{bar}"
-temperature_degC = {temperature:.1f}
-
-[setup]
 """
 
 
@@ -86,14 +72,7 @@ def _measured(story: Story, at: datetime, folder: Path) -> Path:
     said = said.replace("parameters = [", 'parameters = ["B_XX", "B_YY", ')
     campaign.write_text(said + _BAR.format(bar=story.bar, scatter=FORCE_SCATTER), encoding="utf-8")
     for number, test in enumerate(tests):
-        about = _ABOUT.format(
-            simulated=FROM_WHAT,
-            at=(at + number * APART).isoformat(timespec="minutes"),
-            place=story.place,
-            machine=story.serial,
-            bar=story.bar,
-            temperature=warm,
-        )
-        test.write_text(test.read_text(encoding="utf-8").replace("[setup]\n", about, 1), encoding="utf-8")
+        measured = about(story, at + number * APART, warm) + "\n[setup]\n"
+        test.write_text(test.read_text(encoding="utf-8").replace("[setup]\n", measured, 1), encoding="utf-8")
         read_by_instrument(test.parent, values, number, WITH_CARE, MONTHLY)
     return folder

@@ -22,6 +22,8 @@ schema = "elastogeo.test/1"
 name = "Monthly test, loaded circle in XY"
 machine = "{model}"
 instrument = "loaded-ball-bar"
+"""
+_ABOUT = """\
 resolution_um = 0.1
 simulated = "{simulated}"
 
@@ -32,14 +34,15 @@ place = "{place}"
 machine_serial = "{machine}"
 instrument_serial = "{bar}"
 temperature_degC = {temperature:.1f}
-
+"""
+_CIRCLE = """
 [setup]
 feed_mm_min = 2000
 
 [setup.circle]
 radius_mm = 150
 plane = "XY"
-centre = {{ X_mm = 0, Y_mm = 0, Z_mm = 0, A_deg = 0, C_deg = 0 }}
+centre = { X_mm = 0, Y_mm = 0, Z_mm = 0, A_deg = 0, C_deg = 0 }
 
 [question]
 parameters = ["loaded-xy", "B_XX", "B_YY"]
@@ -74,8 +77,16 @@ def write_test(folder: Path, story: Story, at: datetime, temperature: float, val
         The folder.
     """
     folder.mkdir(parents=True)
-    text = _TEST.format(
-        model=story.model,
+    text = _TEST.format(model=story.model) + about(story, at, temperature) + _CIRCLE
+    runs = (_RUN.format(force=force, sense=sense) for force in FORCES for sense in ("cw", "ccw"))
+    (folder / "test.toml").write_text(text + "".join(runs), encoding="utf-8")
+    read_by_instrument(folder, values, seed)
+    return folder
+
+
+def about(story: Story, at: datetime, temperature: float) -> str:
+    """What a test file says of the day it was measured on [degC], and that nothing was measured."""
+    return _ABOUT.format(
         simulated=FROM_WHAT,
         at=at.isoformat(timespec="minutes"),
         place=story.place,
@@ -83,10 +94,6 @@ def write_test(folder: Path, story: Story, at: datetime, temperature: float, val
         bar=story.bar,
         temperature=temperature,
     )
-    runs = (_RUN.format(force=force, sense=sense) for force in FORCES for sense in ("cw", "ccw"))
-    (folder / "test.toml").write_text(text + "".join(runs), encoding="utf-8")
-    read_by_instrument(folder, values, seed)
-    return folder
 
 
 def read_by_instrument(
